@@ -1,0 +1,20 @@
+# limn_add_module_sources(TARGET FOLDER…): every source in these folders of src/limn belongs to TARGET.
+function(limn_add_module_sources target)
+  foreach(folder IN LISTS ARGN)
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+    target_sources(${target} PRIVATE ${sources})
+  endforeach()
+endfunction()
+
+# limn_add_tests(FOLDER LIBRARY…): one test program of every *_test.cpp in tests/FOLDER.
+function(limn_add_tests folder)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  set(target test_${folder})
+  add_executable(${target} ${sources})
+  target_link_libraries(${target} PRIVATE limn_build_flags limn_test_support GTest::gtest_main ${ARGN})
+  target_compile_definitions(${target} PRIVATE LIMN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LIMN_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  gtest_discover_tests(${target} TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

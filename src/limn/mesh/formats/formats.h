@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limn/base/result.h"
+#include "limn/mesh/export.h"
+#include "limn/mesh/import.h"
+
+/// One reader and one writer a format; read_mesh() and write_mesh() choose among them and check what comes back.
+namespace limn::formats {
+
+/// What a reader is given.
+struct Source {
+  std::span<const std::byte> bytes;  ///< the whole file
+  std::string name;                  ///< for messages
+  std::filesystem::path folder;      ///< where relative references resolve; empty: references are refused
+  Progress progress;
+};
+
+/// Readers may leave indices unchecked only where they say so; read_mesh() checks every index, count and coordinate after them.
+Result<ImportedMesh> read_ply(const Source& source);
+Result<ImportedMesh> read_stl(const Source& source);
+Result<ImportedMesh> read_off(const Source& source);
+Result<ImportedMesh> read_obj(const Source& source);
+Result<ImportedMesh> read_gltf(const Source& source);   ///< .gltf and .glb, told apart by content
+Result<ImportedMesh> read_other(const Source& source);  ///< through assimp; kUnreadable, saying so, when built without
+
+/// A file and what it should hold; a format may need more than one (OBJ with its MTL).
+struct OutputFile {
+  std::filesystem::path path;
+  std::string bytes;
+};
+
+/// The bytes of a mesh in a format. `path` names the main file; the other files lie beside it.
+Result<std::vector<OutputFile>> write_ply(const Mesh& mesh, const std::filesystem::path& path, bool ascii);
+Result<std::vector<OutputFile>> write_stl(const Mesh& mesh, const std::filesystem::path& path, bool ascii);
+Result<std::vector<OutputFile>> write_off(const Mesh& mesh, const std::filesystem::path& path);
+Result<std::vector<OutputFile>> write_obj(const Mesh& mesh, const std::filesystem::path& path);
+Result<std::vector<OutputFile>> write_gltf(const Mesh& mesh, const std::filesystem::path& path, bool binary);
+
+/// One value a vertex: the mesh with a vertex repeated where its corners' attributes differ, as PLY and glTF need it.
+/// Attributes come back without indices. Vertices keep their order, repeats follow. Same bits for any number of threads.
+struct VertexMesh {
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;
+  std::vector<Vec2> uvs;
+  std::vector<Vec4> colors;
+  std::vector<Triangle> faces;
+};
+VertexMesh one_value_per_vertex(const Mesh& mesh);
+
+/// Reads a file that another refers to, relative to `folder`.
+/// Errors: kUnreadable, naming the reference, for absolute paths, "..", schemes ("http:", "file:"), links that lead out of the folder.
+Result<std::vector<std::byte>> read_reference(const std::filesystem::path& folder, std::string_view reference);
+
+}  // namespace limn::formats

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "limn/base/progress.h"
+#include "limn/base/result.h"
+#include "limn/refine/levels.h"
+#include "limn/refine/patch.h"
+#include "limn/refine/tessellate.h"
+
+namespace limn {
+
+struct RefineOptions {
+  LevelOptions levels;
+  Blend blend = Blend::kSurplus;
+  CenterRule center = CenterRule::kPn;
+  /// Normals are computed, split at edges sharper than this, when the mesh brings none; NaN-free, in [0, π].
+  float crease_angle_rad = 1.0471976f;
+  bool recompute_normals = false;  ///< even when the mesh brings some
+  std::size_t max_triangles = 200'000'000;
+  Progress progress;
+};
+
+/// Refines a mesh where its outline is, seen from `view`: normals, curves, levels, tessellation in one call.
+///
+/// The result is bitwise watertight where the input is closed: every vertex on a shared edge is one point, stored once;
+/// no T-junctions; the input's winding. Attributes are carried: normals quadratic, the rest linear. Same bits for any number of threads.
+/// Errors: kUnsuitable (no faces, or more than max_triangles would result), kInvalidArgument, kCancelled.
+Result<Refinement> refine(const Mesh& mesh, const View& view, const RefineOptions& options = {});
+
+/// What refine() computes from the mesh alone, kept for many views of one mesh.
+class Refiner {
+ public:
+  /// Welds, finds or computes normals, builds curves and patches. Keeps a copy of the mesh.
+  static Result<Refiner> create(Mesh mesh, const RefineOptions& options = {});
+
+  /// As refine(); the options' normals and crease angle are those given to create().
+  Result<Refinement> refine(const View& view, const LevelOptions& levels, Blend blend = Blend::kSurplus) const;
+
+  /// From levels the caller chose. \pre one level an edge, each in [0, kMaxLevel]
+  Result<Refinement> refine_with(std::span<const float> levels, Blend blend = Blend::kSurplus) const;
+
+  const Mesh& mesh() const { return mesh_; }
+  const Topology& topology() const { return topology_; }
+  const std::vector<EdgeCurve>& curves() const { return curves_; }
+
+ private:
+  Refiner() = default;
+  Mesh mesh_;
+  Topology topology_;
+  std::vector<EdgeCurve> curves_;
+  RefineOptions options_;
+};
+
+}  // namespace limn

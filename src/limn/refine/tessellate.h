@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "limn/base/result.h"
+#include "limn/mesh/mesh.h"
+#include "limn/mesh/topology.h"
+#include "limn/refine/patch.h"
+
+namespace limn {
+
+/// How geometry is blended between integer levels.
+enum class Blend {
+  /// Hierarchical surplus: each dyadic vertex of level l moves from its parents' midpoint by clamp(s − (l−1), 0, 1) of its
+  /// detail. Continuous in every level (docs/blending.md). The default.
+  kSurplus,
+  /// Equations (9)–(11) of Dyken et al. 2008 as published: the interior jumps where the largest of a face's levels crosses an integer.
+  kPaper,
+};
+
+struct TessellateOptions {
+  Blend blend = Blend::kSurplus;
+  CenterRule center = CenterRule::kPn;
+  std::size_t max_triangles = 200'000'000;
+};
+
+/// A refined mesh and where it came from.
+struct Refinement {
+  /// Positions first those of the input that faces use (welded, in order), then edge by edge, then face by face. Every
+  /// corner attribute is indexed (CornerAttribute::indices). Materials are the input's.
+  Mesh mesh;
+  std::vector<float> edge_levels;        ///< one an input edge: s
+  std::vector<FaceId> source_face;       ///< one an output face
+  std::vector<std::uint8_t> face_level;  ///< one an input face: its topological level m, the largest s rounded up
+  std::size_t refined_faces = 0;         ///< input faces with m > 0
+};
+
+/// Tessellates every face at topological level m, the largest of its edges' levels rounded up (Dyken et al. 2008, section 5).
+///
+/// Each edge gets 2^t segments, t the larger m of its faces, at the edge's own level s, computed once and stored once; the
+/// coarser side fans its border triangles to them, so that there is no T-junction and no surface point moves.
+/// Degenerate faces are left out: a closed input stays closed. Same bits for any number of threads.
+/// Errors: kUnsuitable when more than max_triangles triangles or 2^32−2 vertices would result.
+/// \pre mesh.normals is not empty; one curve and one level an edge; levels in [0, kMaxLevel]
+Result<Refinement> tessellate(const Mesh& mesh, const Topology& topology, std::span<const EdgeCurve> curves,
+                              std::span<const float> levels, const TessellateOptions& options = {});
+
+}  // namespace limn

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "limn/mesh/topology.h"
+
+namespace limn {
+
+/// The classes of line a drawing distinguishes.
+enum class LineClass : std::uint8_t {
+  kSilhouette,   ///< between a face seen from the front and one seen from the back
+  kBoundary,     ///< at the rim of an open mesh
+  kCrease,       ///< two faces that meet at more than an angle, or whose normals are split
+  kNonManifold,  ///< three faces or more, or two that disagree on the front
+};
+
+/// The edges with one face only, ascending.
+std::vector<EdgeId> boundary_edges(const Topology& topology);
+
+/// The non-manifold and inconsistent edges, ascending.
+std::vector<EdgeId> non_manifold_edges(const Topology& topology);
+
+/// The manifold edges whose faces' normals differ by more than angle_rad, ascending. Faces without area make no crease.
+/// \pre normals is face_normals() of the mesh; 0 <= angle_rad <= π
+std::vector<EdgeId> crease_edges(const Topology& topology, std::span<const Vec3> normals, float angle_rad);
+
+}  // namespace limn
