@@ -16,8 +16,9 @@ TEST(FitCamera, FramesTheDiagonalOfABoxInBothProjections) {
     EXPECT_NEAR(center.x / center.w, 0, 1e-5);
     EXPECT_NEAR(center.y / center.w, 0, 1e-5);
     for (int i = 0; i < 8; ++i) {
-      const Vec4 corner = clip_from_world * Vec4(i & 1 ? bounds.high.x : bounds.low.x, i & 2 ? bounds.high.y : bounds.low.y,
-                                                 i & 4 ? bounds.high.z : bounds.low.z, 1);
+      const Vec4 corner =
+          clip_from_world * Vec4(i & 1 ? bounds.high.x : bounds.low.x, i & 2 ? bounds.high.y : bounds.low.y,
+                                 i & 4 ? bounds.high.z : bounds.low.z, 1);
       EXPECT_LE(std::abs(corner.y / corner.w), 0.8001f);
       EXPECT_LE(std::abs(corner.z / corner.w), 1.0f);
     }

@@ -38,7 +38,9 @@ TEST(WriteFile, FollowsALinkAndKeepsIt) {
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
 }
 
-TEST(WriteFile, WritesIntoADevice) { EXPECT_TRUE(write_file("/dev/null", "text")); }
+TEST(WriteFile, WritesIntoADevice) {
+  EXPECT_TRUE(write_file("/dev/null", "text"));
+}
 
 TEST(FileBytes, ReadsFilesAndRefusesDirectories) {
   const TempFolder folder;

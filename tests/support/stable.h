@@ -16,9 +16,9 @@ struct StableMesh {
 };
 
 /// The stable of awkward meshes every property test runs over: open sheet, hard-edged cube, sphere with a texture seam,
-/// degenerate faces, duplicate faces, non-manifold edge, non-manifold vertex, nested shells, self-intersection, needles,
-/// huge and tiny coordinates, far from the origin, one triangle, empty, flipped face, Möbius band, stray vertices.
-/// All coordinates are finite; every index in range.
+/// degenerate faces, duplicate faces, non-manifold edge, non-manifold vertex, nested shells, self-intersection,
+/// needles, huge and tiny coordinates, far from the origin, one triangle, empty, flipped face, Möbius band, stray
+/// vertices. All coordinates are finite; every index in range.
 std::vector<StableMesh> awkward_meshes();
 
 }  // namespace limn::test

@@ -1,11 +1,9 @@
 #include "support/temp_folder.h"
 
-#include <stdlib.h>
-
 #include <fstream>
-#include <sstream>
-
 #include <gtest/gtest.h>
+#include <sstream>
+#include <stdlib.h>
 
 namespace limn::test {
 

@@ -30,7 +30,8 @@ struct Bounds {
 /// The box of all points; empty for none.
 inline Bounds bounds_of(std::span<const Vec3> points) {
   Bounds bounds;
-  for (const Vec3& p : points) bounds.add(p);
+  for (const Vec3& p : points)
+    bounds.add(p);
   return bounds;
 }
 

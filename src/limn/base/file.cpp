@@ -1,13 +1,12 @@
 #include "limn/base/file.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
+#include <string>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-#include <string>
 #include <utility>
 
 namespace limn {
@@ -21,7 +20,9 @@ Error unwritable(const std::filesystem::path& path, std::string message, std::st
   return Error{ErrorCode::kUnwritable, std::move(message), path.string(), {}, std::move(remedy)};
 }
 
-std::string system_message(int code) { return std::strerror(code); }
+std::string system_message(int code) {
+  return std::strerror(code);
+}
 
 /// Closes a descriptor at the end of its scope.
 class Descriptor {
@@ -100,7 +101,9 @@ Result<FileBytes> FileBytes::open(const std::filesystem::path& path) {
   return file;
 }
 
-FileBytes::FileBytes(FileBytes&& other) noexcept { *this = std::move(other); }
+FileBytes::FileBytes(FileBytes&& other) noexcept {
+  *this = std::move(other);
+}
 
 FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
   if (this == &other) return *this;
@@ -111,7 +114,9 @@ FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
   return *this;
 }
 
-FileBytes::~FileBytes() { release(); }
+FileBytes::~FileBytes() {
+  release();
+}
 
 void FileBytes::release() {
   if (mapped_) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
@@ -139,9 +144,8 @@ Result<void> write_file(const std::filesystem::path& path, std::span<const std::
     return {};
   }
   // A link is followed, so that the file it names is replaced and the link stays.
-  const std::filesystem::path target = std::filesystem::is_symlink(path, status_error)
-                                           ? std::filesystem::weakly_canonical(path, status_error)
-                                           : path;
+  const std::filesystem::path target =
+      std::filesystem::is_symlink(path, status_error) ? std::filesystem::weakly_canonical(path, status_error) : path;
   std::string temporary = target.string() + ".XXXXXX";
   Descriptor fd(::mkstemp(temporary.data()));
   if (fd.get() < 0) {

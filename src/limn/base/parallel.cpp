@@ -41,7 +41,9 @@ void parallel_for(std::size_t count, std::size_t grain, const std::function<void
   if (count > 0) body(0, count);
 }
 
-int thread_count() { return 1; }
+int thread_count() {
+  return 1;
+}
 
 struct ThreadLimit::Impl {
   explicit Impl(int) {}
@@ -49,7 +51,9 @@ struct ThreadLimit::Impl {
 
 #endif
 
-ThreadLimit::ThreadLimit(int threads) : impl_(std::make_unique<Impl>(threads)) { assert(threads >= 1); }
+ThreadLimit::ThreadLimit(int threads) : impl_(std::make_unique<Impl>(threads)) {
+  assert(threads >= 1);
+}
 ThreadLimit::~ThreadLimit() = default;
 
 }  // namespace limn

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -17,6 +16,8 @@ using DVec3 = glm::dvec3;
 using Mat4 = glm::mat4;
 
 /// Whether no component is NaN or infinite.
-inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 }  // namespace limn

@@ -7,8 +7,8 @@
 
 namespace limn::gl {
 
-/// An OpenGL 4.5 core context without a window or display, through EGL: surfaceless where Mesa offers it, else a device's.
-/// Current on the thread that created it until destroyed; use and destroy it there.
+/// An OpenGL 4.5 core context without a window or display, through EGL: surfaceless where Mesa offers it, else a
+/// device's. Current on the thread that created it until destroyed; use and destroy it there.
 class Context {
  public:
   /// Errors: kNoGraphics, saying what was tried and which package or variable helps.

@@ -31,12 +31,13 @@ Image side_by_side(const std::vector<Image>& images, int gap = 0);
 
 /// How two pictures of one size differ.
 struct ImageDifference {
-  double failing_share = 0;     ///< pixels with a channel further apart than the tolerance, over all pixels
-  int largest = 0;              ///< largest difference of a channel, 0 … 255
-  Image picture;                ///< failing pixels in red over a faded copy of the expected picture
+  double failing_share = 0;  ///< pixels with a channel further apart than the tolerance, over all pixels
+  int largest = 0;           ///< largest difference of a channel, 0 … 255
+  Image picture;             ///< failing pixels in red over a faded copy of the expected picture
 };
 
-/// Compares pixel by pixel. Pictures of different sizes fail everywhere. \param tolerance a channel's allowed difference
+/// Compares pixel by pixel. Pictures of different sizes fail everywhere. \param tolerance a channel's allowed
+/// difference
 ImageDifference compare_images(const Image& actual, const Image& expected, int tolerance);
 
 }  // namespace limn

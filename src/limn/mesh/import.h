@@ -35,10 +35,10 @@ struct ImportedMesh {
 /// Reads a mesh from a file, or from standard input when the path is "-".
 ///
 /// Guarantees on success: every index is in range, every coordinate finite, normals of unit length (those of length 0
-/// are replaced by their face's), attribute counts consistent. A file without faces is read; that it has none is for the caller to mind.
-/// Memory stays within a small multiple of the file's size whatever its headers claim. Reads no file outside the
-/// given file's own folder and those below it, and nothing from a network: a reference to such a file is an error.
-/// Errors: kUnreadable (file, place, cause), kUnsuitable for coordinates that are not finite, kCancelled.
+/// are replaced by their face's), attribute counts consistent. A file without faces is read; that it has none is for
+/// the caller to mind. Memory stays within a small multiple of the file's size whatever its headers claim. Reads no
+/// file outside the given file's own folder and those below it, and nothing from a network: a reference to such a file
+/// is an error. Errors: kUnreadable (file, place, cause), kUnsuitable for coordinates that are not finite, kCancelled.
 Result<ImportedMesh> read_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// The same from memory. \param name stands for the file in messages; references to other files are errors.

@@ -40,11 +40,11 @@ struct Material {
 /// splits vertices because normals or texture coordinates differ, is not taken for a boundary.
 struct Mesh {
   std::vector<Vec3> positions;
-  std::vector<Triangle> faces;          ///< indices into positions
-  CornerAttribute<Vec3> normals;        ///< unit length
-  CornerAttribute<Vec2> uvs;            ///< v upwards from the bottom of the picture, as in OBJ
-  CornerAttribute<Vec4> colors;         ///< linear RGBA
-  std::vector<float> tags;              ///< one value a position, for Criterion::kTags (refine/levels.h); may be empty
+  std::vector<Triangle> faces;    ///< indices into positions
+  CornerAttribute<Vec3> normals;  ///< unit length
+  CornerAttribute<Vec2> uvs;      ///< v upwards from the bottom of the picture, as in OBJ
+  CornerAttribute<Vec4> colors;   ///< linear RGBA
+  std::vector<float> tags;        ///< one value a position, for Criterion::kTags (refine/levels.h); may be empty
   std::vector<std::uint32_t> face_materials;  ///< one a face, index into materials; empty: all of material 0, or none
   std::vector<Material> materials;
 
@@ -59,8 +59,9 @@ struct Mesh {
   /// The index of that value.
   template <class T>
   std::uint32_t corner_index(const CornerAttribute<T>& attribute, FaceId face, int c) const {
-    return attribute.indices.empty() ? faces[face][static_cast<std::size_t>(c)]
-                                     : attribute.indices[3 * static_cast<std::size_t>(face) + static_cast<std::size_t>(c)];
+    return attribute.indices.empty()
+               ? faces[face][static_cast<std::size_t>(c)]
+               : attribute.indices[3 * static_cast<std::size_t>(face) + static_cast<std::size_t>(c)];
   }
 };
 

@@ -13,8 +13,8 @@ namespace limn {
 enum class Shape { kTetrahedron, kCube, kIcosphere, kTorus, kKnot, kHoles3, kAsteroid, kSheet, kTerrain };
 
 struct ShapeOptions {
-  std::size_t faces = 0;    ///< wanted number of faces, met as nearly as the shape allows; 0: the shape's own default
-  std::uint64_t seed = 1;   ///< asteroid and terrain
+  std::size_t faces = 0;   ///< wanted number of faces, met as nearly as the shape allows; 0: the shape's own default
+  std::uint64_t seed = 1;  ///< asteroid and terrain
 };
 
 /// All shapes in the order of the enumeration, with the names the command line uses ("holes3").

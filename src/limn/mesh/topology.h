@@ -18,7 +18,8 @@ enum class EdgeClass : std::uint8_t {
 };
 
 /// One undirected edge. v[0] < v[1]; face[0] is the one that runs from v[0] to v[1] where there is one (for
-/// kNonManifold: the two lowest faces; all of them through Topology::edge_faces). A boundary edge has face[1] == kInvalidId.
+/// kNonManifold: the two lowest faces; all of them through Topology::edge_faces). A boundary edge has face[1] ==
+/// kInvalidId.
 struct Edge {
   VertexId v[2];
   FaceId face[2];
@@ -29,13 +30,13 @@ struct Edge {
 /// Faces two of whose corners are one vertex (`degenerate_faces`) take no part: their face_edges are kInvalidId.
 /// Immutable once built; edges are sorted by (v[0], v[1]).
 struct Topology {
-  std::vector<VertexId> weld;           ///< position index → lowest index of an equal position
-  std::vector<Triangle> faces;          ///< as Mesh::faces, welded
+  std::vector<VertexId> weld;   ///< position index → lowest index of an equal position
+  std::vector<Triangle> faces;  ///< as Mesh::faces, welded
   std::vector<Edge> edges;
-  std::vector<EdgeClass> edge_class;    ///< one an edge
-  std::vector<std::array<EdgeId, 3>> face_edges;  ///< edge c runs from corner c to corner (c+1) % 3
-  std::vector<FaceId> degenerate_faces;           ///< ascending
-  std::vector<EdgeId> non_manifold_edges;         ///< ascending
+  std::vector<EdgeClass> edge_class;                ///< one an edge
+  std::vector<std::array<EdgeId, 3>> face_edges;    ///< edge c runs from corner c to corner (c+1) % 3
+  std::vector<FaceId> degenerate_faces;             ///< ascending
+  std::vector<EdgeId> non_manifold_edges;           ///< ascending
   std::vector<std::uint32_t> non_manifold_offsets;  ///< into non_manifold_faces; one more than non_manifold_edges
   std::vector<FaceId> non_manifold_faces;           ///< ascending within an edge
 

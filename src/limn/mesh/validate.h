@@ -11,9 +11,9 @@ namespace limn {
 
 /// What a mesh is like, counted.
 struct MeshReport {
-  std::size_t vertices = 0;          ///< as stored
-  std::size_t welded_vertices = 0;   ///< distinct positions that faces use
-  std::size_t unused_vertices = 0;   ///< stored, used by no face
+  std::size_t vertices = 0;         ///< as stored
+  std::size_t welded_vertices = 0;  ///< distinct positions that faces use
+  std::size_t unused_vertices = 0;  ///< stored, used by no face
   std::size_t faces = 0;
   std::size_t edges = 0;
   std::size_t boundary_edges = 0;
@@ -29,13 +29,13 @@ struct MeshReport {
   double volume = 0;                      ///< signed; meaningful when closed
   double area = 0;
   Bounds bounds;
-  bool closed = false;                    ///< every edge manifold, at least one face
+  bool closed = false;  ///< every edge manifold, at least one face
   bool has_normals = false, has_uvs = false, has_colors = false;
 };
 
 /// Whether one technique can run on the mesh, and why not.
 struct Suitability {
-  std::string technique;             ///< "silhouette", "refine", "hull", "clip"
+  std::string technique;  ///< "silhouette", "refine", "hull", "clip"
   bool can_run = false;
   std::vector<std::string> reasons;  ///< what prevents it, or, when it can run, what to expect; with counts
 };

@@ -14,7 +14,8 @@ namespace limn {
 /// Where a mesh is refined.
 enum class Criterion {
   kSilhouette,  ///< near the outline: s = M·α (Dyken et al. 2008, sections 3 and 5)
-  kDistance,    ///< near the eye: M at near_distance and closer, 0 at far_distance and beyond, linear in the logarithm between
+  kDistance,    ///< near the eye: M at near_distance and closer, 0 at far_distance and beyond, linear in the logarithm
+                ///< between
   kCurvature,   ///< where the surface bends: Meyer's discrete Gaussian curvature at the vertices, averaged to edges
   kUniform,     ///< M everywhere
   kTags,        ///< Mesh::tags at the vertices, averaged to edges (Lenz et al. 2009, section 3), clamped to [0, M]
@@ -25,13 +26,14 @@ inline constexpr int kMaxLevel = 8;
 
 struct LevelOptions {
   Criterion criterion = Criterion::kSilhouette;
-  int max_level = 3;         ///< M, 0 … kMaxLevel
-  Wedge wedge;               ///< kSilhouette
+  int max_level = 3;  ///< M, 0 … kMaxLevel
+  Wedge wedge;        ///< kSilhouette
   /// τ, the largest distance in pixels between an edge's curve and its segments; 0: levels are M times the criterion.
   /// With it s = α·clamp(½·log2(e/τ), 0, M), e the projected distance of the curve from its chord (halving a cubic's
   /// step quarters its error), α the criterion's value in [0, 1]. Needs View::pixels_per_unit.
   float pixels = 0.0f;
-  float near_distance = 0.0f;  ///< kDistance; both 0: half and twice the distance from the eye to the middle of the mesh
+  float near_distance =
+      0.0f;  ///< kDistance; both 0: half and twice the distance from the eye to the middle of the mesh
   float far_distance = 0.0f;
 };
 

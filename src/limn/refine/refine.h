@@ -25,8 +25,9 @@ struct RefineOptions {
 /// Refines a mesh where its outline is, seen from `view`: normals, curves, levels, tessellation in one call.
 ///
 /// The result is bitwise watertight where the input is closed: every vertex on a shared edge is one point, stored once;
-/// no T-junctions; the input's winding. Attributes are carried: normals quadratic, the rest linear. Same bits for any number of threads.
-/// Errors: kUnsuitable (no faces, or more than max_triangles would result), kInvalidArgument, kCancelled.
+/// no T-junctions; the input's winding. Attributes are carried: normals quadratic, the rest linear. Same bits for any
+/// number of threads. Errors: kUnsuitable (no faces, or more than max_triangles would result), kInvalidArgument,
+/// kCancelled.
 Result<Refinement> refine(const Mesh& mesh, const View& view, const RefineOptions& options = {});
 
 /// What refine() computes from the mesh alone, kept for many views of one mesh.

@@ -12,10 +12,12 @@ namespace limn {
 
 /// How geometry is blended between integer levels.
 enum class Blend {
-  /// Hierarchical surplus: each dyadic vertex of level l moves from its parents' midpoint by clamp(s − (l−1), 0, 1) of its
+  /// Hierarchical surplus: each dyadic vertex of level l moves from its parents' midpoint by clamp(s − (l−1), 0, 1) of
+  /// its
   /// detail. Continuous in every level (docs/blending.md). The default.
   kSurplus,
-  /// Equations (9)–(11) of Dyken et al. 2008 as published: the interior jumps where the largest of a face's levels crosses an integer.
+  /// Equations (9)–(11) of Dyken et al. 2008 as published: the interior jumps where the largest of a face's levels
+  /// crosses an integer.
   kPaper,
 };
 
@@ -36,10 +38,11 @@ struct Refinement {
   std::size_t refined_faces = 0;         ///< input faces with m > 0
 };
 
-/// Tessellates every face at topological level m, the largest of its edges' levels rounded up (Dyken et al. 2008, section 5).
+/// Tessellates every face at topological level m, the largest of its edges' levels rounded up (Dyken et al. 2008,
+/// section 5).
 ///
-/// Each edge gets 2^t segments, t the larger m of its faces, at the edge's own level s, computed once and stored once; the
-/// coarser side fans its border triangles to them, so that there is no T-junction and no surface point moves.
+/// Each edge gets 2^t segments, t the larger m of its faces, at the edge's own level s, computed once and stored once;
+/// the coarser side fans its border triangles to them, so that there is no T-junction and no surface point moves.
 /// Degenerate faces are left out: a closed input stays closed. Same bits for any number of threads.
 /// Errors: kUnsuitable when more than max_triangles triangles or 2^32−2 vertices would result.
 /// \pre mesh.normals is not empty; one curve and one level an edge; levels in [0, kMaxLevel]

@@ -22,20 +22,21 @@ struct Segment3 {
 struct RenderOptions {
   int width = 1024;
   int height = 1024;
-  int samples = 4;                        ///< 1 or 4
+  int samples = 4;  ///< 1 or 4
   /// sRGB 0 … 1 with alpha; alpha 0 leaves coverage in the picture's alpha.
   Vec4 background{1, 1, 1, 1};
-  bool wireframe = false;                 ///< thin lines over the shaded faces, hidden ones removed
-  bool flat = false;                      ///< face normals instead of the mesh's
+  bool wireframe = false;  ///< thin lines over the shaded faces, hidden ones removed
+  bool flat = false;       ///< face normals instead of the mesh's
   bool draw_faces = true;
-  float line_width_px = 1.5f;             ///< of `segments`
+  float line_width_px = 1.5f;  ///< of `segments`
 };
 
 /// Draws a lit picture of a mesh: a head light, a sky, base colours and base colour textures.
 ///
 /// \param segments  drawn over it where not hidden by it (a small depth bias in their favour), for outlines and levels
-/// Mesh normals are used where there are some, else face normals; both sides are lit. An empty mesh gives the background.
-/// Errors: kInvalidArgument (sizes outside 1 … 16384, samples), kNoGraphics when the device cannot hold the picture.
+/// Mesh normals are used where there are some, else face normals; both sides are lit. An empty mesh gives the
+/// background. Errors: kInvalidArgument (sizes outside 1 … 16384, samples), kNoGraphics when the device cannot hold the
+/// picture.
 Result<Image> render(gl::Context& context, const Mesh& mesh, const Camera& camera, const RenderOptions& options = {},
                      std::span<const Segment3> segments = {});
 

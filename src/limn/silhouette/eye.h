@@ -5,9 +5,10 @@
 
 namespace limn {
 
-/// Where a mesh is seen from, in the mesh's own space: a point, or for a parallel projection the direction towards the viewer.
+/// Where a mesh is seen from, in the mesh's own space: a point, or for a parallel projection the direction towards the
+/// viewer.
 struct Eye {
-  Vec3 at{0, 0, 1};           ///< the point; or, when orthographic, the direction (any length but 0)
+  Vec3 at{0, 0, 1};  ///< the point; or, when orthographic, the direction (any length but 0)
   bool orthographic = false;
 };
 
@@ -17,8 +18,8 @@ Eye eye_of(const Camera& camera);
 /// An eye and how large things appear from it: what levels by pixels need.
 struct View {
   Eye eye;
-  /// Pixels that one unit of length covers: across the line of sight at distance 1 (perspective; divide by the distance),
-  /// or anywhere (orthographic). 0: unknown.
+  /// Pixels that one unit of length covers: across the line of sight at distance 1 (perspective; divide by the
+  /// distance), or anywhere (orthographic). 0: unknown.
   float pixels_per_unit = 0.0f;
 };
 

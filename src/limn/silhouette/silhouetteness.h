@@ -11,7 +11,7 @@ namespace limn {
 /// How wide the band is in which an edge counts as nearly a silhouette: β of Dyken et al. 2008, section 3.
 struct Wedge {
   enum class Rule {
-    kAngle,    ///< β = sinφ cosφ sinθ + sin²φ cosθ, θ the angle between the faces' normals: the band is a wedge of φ
+    kAngle,  ///< β = sinφ cosφ sinθ + sin²φ cosθ, θ the angle between the faces' normals: the band is a wedge of φ
     kQuarter,  ///< β = 1/4, the paper's shortcut; refines flat regions more than needed
   };
   Rule rule = Rule::kAngle;
@@ -29,9 +29,9 @@ inline float silhouetteness(float f, float beta) {
 
 /// α of every edge: f = (d·n_s)(d·n_t), d the unit vector from the eye to the edge's midpoint (equation (1)).
 ///
-/// Boundary edges are always on the outline: 1. Non-manifold edges take the largest over the pairs of their faces; edges of faces
-/// without area take 1. \param normals face_normals() of the mesh. Continuous in the eye except where it meets an edge's midpoint.
-/// Same bits for any number of threads.
+/// Boundary edges are always on the outline: 1. Non-manifold edges take the largest over the pairs of their faces;
+/// edges of faces without area take 1. \param normals face_normals() of the mesh. Continuous in the eye except where it
+/// meets an edge's midpoint. Same bits for any number of threads.
 std::vector<float> edge_silhouetteness(const Mesh& mesh, const Topology& topology, std::span<const Vec3> normals,
                                        const Eye& eye, const Wedge& wedge = {});
 

@@ -23,7 +23,8 @@ struct Source {
   Progress progress;
 };
 
-/// Readers may leave indices unchecked only where they say so; read_mesh() checks every index, count and coordinate after them.
+/// Readers may leave indices unchecked only where they say so; read_mesh() checks every index, count and coordinate
+/// after them.
 Result<ImportedMesh> read_ply(const Source& source);
 Result<ImportedMesh> read_stl(const Source& source);
 Result<ImportedMesh> read_off(const Source& source);
@@ -45,7 +46,8 @@ Result<std::vector<OutputFile>> write_obj(const Mesh& mesh, const std::filesyste
 Result<std::vector<OutputFile>> write_gltf(const Mesh& mesh, const std::filesystem::path& path, bool binary);
 
 /// One value a vertex: the mesh with a vertex repeated where its corners' attributes differ, as PLY and glTF need it.
-/// Attributes come back without indices. Vertices keep their order, repeats follow. Same bits for any number of threads.
+/// Attributes come back without indices. Vertices keep their order, repeats follow. Same bits for any number of
+/// threads.
 struct VertexMesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;
@@ -56,7 +58,8 @@ struct VertexMesh {
 VertexMesh one_value_per_vertex(const Mesh& mesh);
 
 /// Reads a file that another refers to, relative to `folder`.
-/// Errors: kUnreadable, naming the reference, for absolute paths, "..", schemes ("http:", "file:"), links that lead out of the folder.
+/// Errors: kUnreadable, naming the reference, for absolute paths, "..", schemes ("http:", "file:"), links that lead out
+/// of the folder.
 Result<std::vector<std::byte>> read_reference(const std::filesystem::path& folder, std::string_view reference);
 
 }  // namespace limn::formats
