@@ -16,13 +16,17 @@ enum class Criterion {
   kSilhouette,  ///< near the outline: s = M·α (Dyken et al. 2008, sections 3 and 5)
   kDistance,    ///< near the eye: M at near_distance and closer, 0 at far_distance and beyond, linear in the logarithm
                 ///< between
-  kCurvature,   ///< where the surface bends: Meyer's discrete Gaussian curvature at the vertices, averaged to edges
+  kCurvature,   ///< where the surface bends: √|K| times the edge's length, K Meyer's discrete Gaussian curvature
+                ///< averaged from its ends, is the angle the surface turns along it; M from kFullTurn_rad on
   kUniform,     ///< M everywhere
   kTags,        ///< Mesh::tags at the vertices, averaged to edges (Lenz et al. 2009, section 3), clamped to [0, M]
 };
 
 /// The deepest level anything here takes: 2^8 segments an edge.
 inline constexpr int kMaxLevel = 8;
+
+/// The turn along an edge from which Criterion::kCurvature refines fully: 45°.
+inline constexpr float kFullTurn_rad = 0.78539816f;
 
 struct LevelOptions {
   Criterion criterion = Criterion::kSilhouette;
@@ -38,9 +42,18 @@ struct LevelOptions {
 };
 
 /// The geometric refinement level of every edge, once an edge and never a triangle, so that neighbours agree.
-/// Real numbers in [0, max_level]. Same bits for any number of threads.
-/// Errors: kInvalidArgument for options out of range; kUnsuitable for kTags without tags.
-Result<std::vector<float>> edge_levels(const Mesh& mesh, const Topology& topology, std::span<const EdgeCurve> curves,
-                                       const View& view, const LevelOptions& options);
+///
+/// Real numbers in [0, max_level]. \param face_normals  face_normals() of the mesh
+/// Cost: one pass over the edges (kCurvature: and one over the faces). Same bits for any number of threads.
+/// Errors: kInvalidArgument for options out of range, kDistance without a perspective eye, or pixels without a scale;
+/// kUnsuitable for kTags without tags.
+Result<std::vector<float>> edge_levels(const Mesh& mesh, const Topology& topology, std::span<const Vec3> face_normals,
+                                       std::span<const EdgeCurve> curves, const View& view,
+                                       const LevelOptions& options);
+
+/// Meyer's discrete Gaussian curvature at every welded vertex (Meyer et al. 2002, section 4): the angle missing from 2π
+/// (from π at a boundary) over the mixed Voronoi area; 0 at vertices without faces and where the area is 0.
+/// Indexed by position; positions welded to another have 0. Same bits for any number of threads.
+std::vector<float> gaussian_curvature(const Mesh& mesh, const Topology& topology);
 
 }  // namespace limn

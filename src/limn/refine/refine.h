@@ -25,7 +25,8 @@ struct RefineOptions {
 /// Refines a mesh where its outline is, seen from `view`: normals, curves, levels, tessellation in one call.
 ///
 /// The result is bitwise watertight where the input is closed: every vertex on a shared edge is one point, stored once;
-/// no T-junctions; the input's winding. Attributes are carried: normals quadratic, the rest linear. Same bits for any
+/// no T-junctions; the input's winding. Normals vary quadratically, texture coordinates and colours linearly; tags are
+/// used up. Same bits for any
 /// number of threads. Errors: kUnsuitable (no faces, or more than max_triangles would result), kInvalidArgument,
 /// kCancelled.
 Result<Refinement> refine(const Mesh& mesh, const View& view, const RefineOptions& options = {});
@@ -36,11 +37,11 @@ class Refiner {
   /// Welds, finds or computes normals, builds curves and patches. Keeps a copy of the mesh.
   static Result<Refiner> create(Mesh mesh, const RefineOptions& options = {});
 
-  /// As refine(); the options' normals and crease angle are those given to create().
-  Result<Refinement> refine(const View& view, const LevelOptions& levels, Blend blend = Blend::kSurplus) const;
+  /// As limn::refine(); blending, normals and limits are those given to create().
+  Result<Refinement> refine(const View& view, const LevelOptions& levels) const;
 
   /// From levels the caller chose. \pre one level an edge, each in [0, kMaxLevel]
-  Result<Refinement> refine_with(std::span<const float> levels, Blend blend = Blend::kSurplus) const;
+  Result<Refinement> refine_with(std::span<const float> levels) const;
 
   const Mesh& mesh() const { return mesh_; }
   const Topology& topology() const { return topology_; }
@@ -50,8 +51,9 @@ class Refiner {
   Refiner() = default;
   Mesh mesh_;
   Topology topology_;
+  std::vector<Vec3> face_normals_;
   std::vector<EdgeCurve> curves_;
-  RefineOptions options_;
+  TessellateOptions options_;
 };
 
 }  // namespace limn

@@ -3,28 +3,20 @@
 #include <span>
 #include <vector>
 
+#include "limn/base/progress.h"
 #include "limn/base/result.h"
 #include "limn/mesh/mesh.h"
 #include "limn/mesh/topology.h"
+#include "limn/refine/blend.h"
 #include "limn/refine/patch.h"
 
 namespace limn {
-
-/// How geometry is blended between integer levels.
-enum class Blend {
-  /// Hierarchical surplus: each dyadic vertex of level l moves from its parents' midpoint by clamp(s − (l−1), 0, 1) of
-  /// its
-  /// detail. Continuous in every level (docs/blending.md). The default.
-  kSurplus,
-  /// Equations (9)–(11) of Dyken et al. 2008 as published: the interior jumps where the largest of a face's levels
-  /// crosses an integer.
-  kPaper,
-};
 
 struct TessellateOptions {
   Blend blend = Blend::kSurplus;
   CenterRule center = CenterRule::kPn;
   std::size_t max_triangles = 200'000'000;
+  Progress progress;
 };
 
 /// A refined mesh and where it came from.
@@ -44,7 +36,7 @@ struct Refinement {
 /// Each edge gets 2^t segments, t the larger m of its faces, at the edge's own level s, computed once and stored once;
 /// the coarser side fans its border triangles to them, so that there is no T-junction and no surface point moves.
 /// Degenerate faces are left out: a closed input stays closed. Same bits for any number of threads.
-/// Errors: kUnsuitable when more than max_triangles triangles or 2^32−2 vertices would result.
+/// Errors: kUnsuitable when more than max_triangles triangles or 2^32−2 vertices would result; kCancelled.
 /// \pre mesh.normals is not empty; one curve and one level an edge; levels in [0, kMaxLevel]
 Result<Refinement> tessellate(const Mesh& mesh, const Topology& topology, std::span<const EdgeCurve> curves,
                               std::span<const float> levels, const TessellateOptions& options = {});

@@ -29,9 +29,9 @@ inline float silhouetteness(float f, float beta) {
 
 /// α of every edge: f = (d·n_s)(d·n_t), d the unit vector from the eye to the edge's midpoint (equation (1)).
 ///
-/// Boundary edges are always on the outline: 1. Non-manifold edges take the largest over the pairs of their faces;
-/// edges of faces without area take 1. \param normals face_normals() of the mesh. Continuous in the eye except where it
-/// meets an edge's midpoint. Same bits for any number of threads.
+/// Boundary and non-manifold edges can always be part of the outline: 1. So can edges of faces without area.
+/// \param normals  face_normals() of the mesh. Continuous in the eye except where it meets an edge's midpoint.
+/// Cost: one pass over the edges. Same bits for any number of threads.
 std::vector<float> edge_silhouetteness(const Mesh& mesh, const Topology& topology, std::span<const Vec3> normals,
                                        const Eye& eye, const Wedge& wedge = {});
 
