@@ -7,43 +7,38 @@
 #include "limn/base/camera.h"
 #include "limn/base/progress.h"
 #include "limn/base/result.h"
+#include "limn/compare/coverage.h"
 #include "limn/mesh/mesh.h"
 
 namespace limn {
 
-/// Which pixels a picture covers: 1 or 0 each, rows from the top.
-struct Coverage {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> covered;
-};
-
-/// Rasterizes a mesh's coverage on the CPU: a pixel counts when its centre lies in a projected triangle, front or back,
-/// by the top-left rule on a 1/256-pixel grid with integer edge functions, so that the picture is the same on every
-/// machine. Triangles that reach behind an eye's near plane are clipped there. Same bits for any number of threads.
-Coverage rasterize_coverage(const Mesh& mesh, const Camera& camera, int width, int height);
-
 /// How far apart two outlines are, in pixels.
 struct OutlineError {
   double mean_px = 0;
-  double p95_px = 0;
+  double p95_px = 0;  ///< the smallest distance that at least 95 % of them do not exceed
   double max_px = 0;
   double iou = 1;                  ///< pixels in both coverages over pixels in either; 1 when both are empty
   std::size_t outline_pixels = 0;  ///< how many distances those figures are of
 };
 
-/// For each outline pixel of `candidate` (covered, with an uncovered neighbour among four, the picture's rim counting
-/// as uncovered) the distance to the nearest outline pixel of `reference`, exact (Felzenszwalb and Huttenlocher 2012).
-/// When one of the two has no outline and the other has, distances are the picture's diagonal. \pre sizes agree
+/// The pixels of the outline, 1 or 0 each: covered, with an uncovered neighbour among four. What lies beyond the
+/// picture's rim counts as uncovered.
+std::vector<std::uint8_t> outline_pixels(const Coverage& coverage);
+
+/// For each outline pixel of `candidate` the distance to the nearest outline pixel of `reference`, exact
+/// (distance_transform.h).
+///
+/// When only one of the two has an outline, each of its pixels counts as far away as the picture's diagonal is long.
+/// \pre sizes agree. Cost: linear in pixels. Same bits for any number of threads.
 OutlineError compare_outlines(const Coverage& candidate, const Coverage& reference);
 
 struct CompareOptions {
   int views = 20;
-  int size_px = 1024;  ///< pictures are square
+  int size_px = 1024;  ///< pictures are square; 1 … kMaxCoverageSize
   std::uint64_t seed = 1;
-  float fill = 0.9f;         ///< share of the picture that the reference's diagonal spans
+  float fill = 0.9f;         ///< share of the picture that the reference's diagonal spans, above 0 and at most 1
   bool perspective = false;  ///< else orthographic
-  Progress progress;
+  Progress progress{};
 };
 
 /// The candidate as it should be seen by one camera: lets view-dependent refinement be measured.
@@ -57,8 +52,11 @@ struct Comparison {
 };
 
 /// Measures a candidate against a reference over seeded random views (uniform over the sphere) that frame the
-/// reference. Same figures for any number of threads and on every machine. Errors: kUnsuitable when the reference has
-/// no faces; kInvalidArgument; whatever the candidate's function gives; kCancelled.
+/// reference.
+///
+/// Views are taken one after the other, each with all threads; the candidate's function is called from the calling
+/// thread, once a view. Same figures for any number of threads and on every machine. Errors: kUnsuitable when the
+/// reference has no faces; kInvalidArgument; whatever the candidate's function gives; kCancelled.
 Result<Comparison> compare_meshes(const MeshForCamera& candidate, const Mesh& reference,
                                   const CompareOptions& options = {});
 Result<Comparison> compare_meshes(const Mesh& candidate, const Mesh& reference, const CompareOptions& options = {});
