@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "limn/base/result.h"
@@ -23,8 +25,13 @@ struct Image {
 /// Writes a PNG whole or not at all; "-" is standard output. Same pixels, same bytes. Errors: kUnwritable.
 Result<void> write_png(const Image& image, const std::filesystem::path& path);
 
-/// Reads a PNG (any depth, converted to 8-bit RGBA). Errors: kUnreadable.
+/// Reads a PNG (any depth, converted to 8-bit RGBA); "-" is standard input.
+/// Checks every chunk's length and checksum and the picture's size before it allocates anything: what a header claims
+/// must be possible in a file of that length. Errors: kUnreadable, naming the byte; also for sides beyond 16384.
 Result<Image> read_png(const std::filesystem::path& path);
+
+/// As read_png, from memory, PNG or JPEG told apart by content. \param name  stands for the file in messages
+Result<Image> decode_image(std::span<const std::byte> bytes, std::string_view name);
 
 /// The pictures side by side, tops aligned, `gap` transparent pixels between them.
 Image side_by_side(const std::vector<Image>& images, int gap = 0);

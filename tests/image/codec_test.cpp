@@ -1,0 +1,158 @@
+#include <cstring>
+#include <gtest/gtest.h>
+#include <string>
+
+#include "limn/base/random.h"
+#include "limn/image/image.h"
+
+#include "support/temp_folder.h"
+
+namespace limn {
+namespace {
+
+Image noise(int width, int height, std::uint64_t seed) {
+  Image image(width, height);
+  Random random(seed);
+  for (std::uint8_t& channel : image.rgba)
+    channel = static_cast<std::uint8_t>(random.below(256));
+  return image;
+}
+
+std::span<const std::byte> as_bytes(const std::string& text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+std::string big_endian(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8)
+    bytes.push_back(static_cast<char>(value >> shift & 0xffu));
+  return bytes;
+}
+
+/// The textbook checksum, bit by bit.
+std::uint32_t slow_crc(const std::string& bytes) {
+  std::uint32_t crc = ~0u;
+  for (const char c : bytes) {
+    crc ^= static_cast<std::uint8_t>(c);
+    for (int bit = 0; bit < 8; ++bit)
+      crc = (crc & 1u) != 0 ? (crc >> 1) ^ 0xedb88320u : crc >> 1;
+  }
+  return ~crc;
+}
+
+std::string chunk(const std::string& type, const std::string& data) {
+  return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(slow_crc(type + data));
+}
+
+std::string png_with(std::uint32_t width, std::uint32_t height, const std::string& idat) {
+  return std::string("\x89PNG\r\n\x1a\n", 8) +
+         chunk("IHDR", big_endian(width) + big_endian(height) + std::string("\x08\x06\0\0\0", 5)) +
+         chunk("IDAT", idat) + chunk("IEND", "");
+}
+
+std::string encoded(const Image& image) {
+  const test::TempFolder folder;
+  EXPECT_TRUE(write_png(image, folder / "a.png"));
+  return test::slurp(folder / "a.png");
+}
+
+TEST(Png, ComesBackPixelForPixel) {
+  const test::TempFolder folder;
+  for (const auto& [width, height] : {std::pair{1, 1}, {3, 7}, {257, 64}}) {
+    const Image image = noise(width, height, static_cast<std::uint64_t>(width));
+    ASSERT_TRUE(write_png(image, folder / "noise.png"));
+    const auto read = read_png(folder / "noise.png");
+    ASSERT_TRUE(read) << format_error(read.error());
+    EXPECT_EQ(read->width, width);
+    EXPECT_EQ(read->height, height);
+    EXPECT_EQ(read->rgba, image.rgba);
+  }
+}
+
+TEST(Png, SamePixelsGiveTheSameBytes) {
+  EXPECT_EQ(encoded(noise(31, 17, 4)), encoded(noise(31, 17, 4)));
+}
+
+TEST(Png, WritingAPictureWithoutPixelsLeavesNoFile) {
+  const test::TempFolder folder;
+  const auto written = write_png(Image(), folder / "none.png");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::kUnwritable);
+  EXPECT_FALSE(std::filesystem::exists(folder / "none.png"));
+}
+
+TEST(Png, WritingIntoAMissingFolderSaysSo) {
+  const test::TempFolder folder;
+  const auto written = write_png(noise(1, 1, 1), folder / "no/such/a.png");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::kUnwritable);
+}
+
+TEST(HostilePng, EveryTruncationIsAnError) {
+  const std::string whole = encoded(noise(5, 5, 2));
+  ASSERT_TRUE(decode_image(as_bytes(whole), "whole"));
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const auto read = decode_image(as_bytes(whole.substr(0, length)), "cut.png");
+    ASSERT_FALSE(read) << length;
+    EXPECT_EQ(read.error().code, ErrorCode::kUnreadable);
+    EXPECT_EQ(read.error().file, "cut.png");
+  }
+}
+
+TEST(HostilePng, EveryFlippedBitIsAnError) {
+  const std::string whole = encoded(noise(4, 4, 3));
+  for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+    std::string damaged = whole;
+    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
+    EXPECT_FALSE(decode_image(as_bytes(damaged), "damaged.png")) << "bit " << bit;
+  }
+}
+
+TEST(HostilePng, GarbageBehindValidChecksumsIsAnError) {
+  Random random(9);
+  for (int round = 0; round < 200; ++round) {
+    std::string data = std::string("\x78\x9c", 2);
+    for (std::uint64_t i = 0, n = random.below(64); i < n; ++i)
+      data.push_back(static_cast<char>(random.below(256)));
+    EXPECT_FALSE(decode_image(as_bytes(png_with(64, 64, data)), "garbage.png"));
+  }
+}
+
+TEST(HostilePng, AHugeHeaderIsRefusedBeforeAnyAllocation) {
+  for (const auto& [width, height] : {std::pair{0x7fffffffu, 0x7fffffffu}, {16385u, 1u}, {0u, 4u}, {16384u, 16384u}}) {
+    const auto read = decode_image(as_bytes(png_with(width, height, "0123456789")), "huge.png");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::kUnreadable);
+  }
+}
+
+TEST(HostilePng, DataFarBeyondThePictureIsRefused) {
+  const auto read = decode_image(as_bytes(png_with(1, 1, std::string(1 << 20, '\0'))), "bomb.png");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().where, "IDAT");
+}
+
+TEST(HostilePng, AChunkThatClaimsMoreThanTheFileNamesItsByte) {
+  std::string whole = encoded(noise(4, 4, 3));
+  whole.replace(33, 4, big_endian(0x7fffffff));
+  const auto read = decode_image(as_bytes(whole), "claim.png");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().where, "byte 33");
+}
+
+TEST(ReadPng, OtherFilesAndFoldersAreErrors) {
+  const test::TempFolder folder;
+  const auto text = read_png(folder.write("a.png", "P6 1 1 255 abc"));
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, ErrorCode::kUnreadable);
+  EXPECT_FALSE(read_png(folder.write("empty.png", "")));
+  EXPECT_FALSE(read_png(folder.path()));
+  EXPECT_FALSE(read_png(folder / "missing.png"));
+}
+
+TEST(DecodeImage, AJpegHeaderAloneIsAnError) {
+  EXPECT_FALSE(decode_image(as_bytes(std::string("\xff\xd8\xff\xe0\0\x10JFIF", 10)), "a.jpg"));
+}
+
+}  // namespace
+}  // namespace limn
