@@ -1,0 +1,70 @@
+#include "limn/gl/objects.h"
+
+#include <epoxy/gl.h>
+
+namespace limn::gl {
+
+void delete_buffer(unsigned id) {
+  glDeleteBuffers(1, &id);
+}
+void delete_texture(unsigned id) {
+  glDeleteTextures(1, &id);
+}
+void delete_framebuffer(unsigned id) {
+  glDeleteFramebuffers(1, &id);
+}
+void delete_vertex_array(unsigned id) {
+  glDeleteVertexArrays(1, &id);
+}
+
+Buffer make_buffer(std::span<const std::byte> bytes) {
+  if (bytes.empty()) return {};
+  unsigned id = 0;
+  glCreateBuffers(1, &id);
+  glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), 0);
+  return Buffer(id);
+}
+
+Framebuffer make_framebuffer() {
+  unsigned id = 0;
+  glCreateFramebuffers(1, &id);
+  return Framebuffer(id);
+}
+
+VertexArray make_vertex_array() {
+  unsigned id = 0;
+  glCreateVertexArrays(1, &id);
+  return VertexArray(id);
+}
+
+Texture make_texture_2d(unsigned format, int width, int height, int samples, int levels) {
+  unsigned id = 0;
+  glCreateTextures(samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D, 1, &id);
+  if (samples > 1) {
+    glTextureStorage2DMultisample(id, samples, format, width, height, GL_TRUE);
+  } else {
+    glTextureStorage2D(id, levels, format, width, height);
+  }
+  return Texture(id);
+}
+
+void attach_attribute(const VertexArray& array, const Buffer& buffer, const FloatAttribute& attribute) {
+  const unsigned location = attribute.location;
+  const auto stride = static_cast<GLsizei>(attribute.stride_bytes);
+  glVertexArrayVertexBuffer(array.id(), location, buffer.id(), static_cast<GLintptr>(attribute.offset_bytes), stride);
+  glVertexArrayAttribFormat(array.id(), location, attribute.components, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribBinding(array.id(), location, location);
+  glVertexArrayBindingDivisor(array.id(), location, attribute.per_instance ? 1 : 0);
+  glEnableVertexArrayAttrib(array.id(), location);
+}
+
+bool take_out_of_memory() {
+  bool out_of_memory = false;
+  for (GLenum code = glGetError(); code != GL_NO_ERROR; code = glGetError()) {
+    if (code == GL_OUT_OF_MEMORY) out_of_memory = true;
+    if (code == GL_CONTEXT_LOST) return true;  // it stays pending for ever
+  }
+  return out_of_memory;
+}
+
+}  // namespace limn::gl

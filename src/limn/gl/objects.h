@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+namespace limn::gl {
+
+/// A GL object's name and its owner: moves, does not copy, deletes with `Delete`. 0 is no object.
+template <void (*Delete)(unsigned)>
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(unsigned id) : id_(id) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Handle() {
+    if (id_ != 0) Delete(id_);
+  }
+  unsigned id() const { return id_; }
+  explicit operator bool() const { return id_ != 0; }
+
+ private:
+  unsigned id_ = 0;
+};
+
+void delete_buffer(unsigned id);
+void delete_texture(unsigned id);
+void delete_framebuffer(unsigned id);
+void delete_vertex_array(unsigned id);
+
+using Buffer = Handle<delete_buffer>;
+using Texture = Handle<delete_texture>;
+using Framebuffer = Handle<delete_framebuffer>;
+using VertexArray = Handle<delete_vertex_array>;
+
+/// Each of these needs a current context (context.h).
+
+/// A buffer that holds these bytes and is never written again; no buffer for no bytes.
+Buffer make_buffer(std::span<const std::byte> bytes);
+
+template <class T>
+Buffer make_buffer_of(std::span<const T> values) {
+  return make_buffer(std::as_bytes(values));
+}
+
+Framebuffer make_framebuffer();
+VertexArray make_vertex_array();
+
+/// A texture without content. \param samples  1 or more; more than 1 is a multisample texture, read with texelFetch
+/// \param format  a sized internal format  \param levels  1, or as many as the mip levels wanted
+Texture make_texture_2d(unsigned format, int width, int height, int samples = 1, int levels = 1);
+
+/// Feeds `components` floats a vertex (or an instance) from a buffer to an attribute.
+struct FloatAttribute {
+  unsigned location;
+  int components;
+  std::size_t offset_bytes = 0;
+  std::size_t stride_bytes = 0;
+  bool per_instance = false;
+};
+void attach_attribute(const VertexArray& array, const Buffer& buffer, const FloatAttribute& attribute);
+
+/// Whether the device ran out of memory since errors were last asked for; takes back every pending error.
+bool take_out_of_memory();
+
+}  // namespace limn::gl

@@ -1,0 +1,113 @@
+#include "limn/gl/program.h"
+
+#include <algorithm>
+#include <epoxy/gl.h>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace limn::gl {
+namespace {
+
+constexpr const char* kRemedy = "update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1 to draw on the CPU";
+
+/// A compiled shader until the program it goes into is linked.
+class Shader {
+ public:
+  Shader(GLenum stage, const std::string& text) : id_(glCreateShader(stage)) {
+    const char* const start = text.c_str();
+    glShaderSource(id_, 1, &start, nullptr);
+    glCompileShader(id_);
+  }
+  ~Shader() { glDeleteShader(id_); }
+  Shader(const Shader&) = delete;
+  Shader& operator=(const Shader&) = delete;
+
+  GLuint id() const { return id_; }
+  bool compiled() const {
+    GLint status = 0;
+    glGetShaderiv(id_, GL_COMPILE_STATUS, &status);
+    return status == GL_TRUE;
+  }
+  std::string log() const {
+    GLint length = 0;
+    glGetShaderiv(id_, GL_INFO_LOG_LENGTH, &length);
+    std::string text(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    glGetShaderInfoLog(id_, length, &length, text.data());
+    text.resize(static_cast<std::size_t>(std::max(length, 0)));
+    return text;
+  }
+
+ private:
+  GLuint id_;
+};
+
+std::string link_log(GLuint program) {
+  GLint length = 0;
+  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+  std::string text(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  glGetProgramInfoLog(program, length, &length, text.data());
+  text.resize(static_cast<std::size_t>(std::max(length, 0)));
+  return text;
+}
+
+Result<void> attach(GLuint program, GLenum stage, const std::string& text, const std::string& name) {
+  if (text.empty()) return {};
+  const Shader shader(stage, text);
+  if (!shader.compiled()) {
+    return fail_at(ErrorCode::kNoGraphics, name, {}, "the shader does not compile here: " + shader.log(), kRemedy);
+  }
+  // Deleting an attached shader only marks it, so the program keeps it as long as needed.
+  glAttachShader(program, shader.id());
+  return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Program>> Program::link(const ProgramText& text, const std::string& name) {
+  std::unique_ptr<Program> program(new Program(glCreateProgram()));
+  const std::pair<GLenum, const std::string*> stages[] = {
+      {GL_VERTEX_SHADER, &text.vertex}, {GL_GEOMETRY_SHADER, &text.geometry}, {GL_FRAGMENT_SHADER, &text.fragment}};
+  for (const auto& [stage, source] : stages) {
+    if (auto attached = attach(program->id_, stage, *source, name); !attached) return tl::unexpected(attached.error());
+  }
+  glLinkProgram(program->id_);
+  GLint status = 0;
+  glGetProgramiv(program->id_, GL_LINK_STATUS, &status);
+  if (status != GL_TRUE) {
+    return fail_at(ErrorCode::kNoGraphics, name, {}, "the program does not link here: " + link_log(program->id_),
+                   kRemedy);
+  }
+  return program;
+}
+
+Program::~Program() {
+  glDeleteProgram(id_);
+}
+
+void Program::use() const {
+  glUseProgram(id_);
+}
+
+int Program::location(const char* uniform) const {
+  return glGetUniformLocation(id_, uniform);
+}
+
+void Program::set(const char* uniform, int value) const {
+  glProgramUniform1i(id_, location(uniform), value);
+}
+void Program::set(const char* uniform, float value) const {
+  glProgramUniform1f(id_, location(uniform), value);
+}
+void Program::set(const char* uniform, const Vec2& value) const {
+  glProgramUniform2fv(id_, location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(const char* uniform, const Vec3& value) const {
+  glProgramUniform3fv(id_, location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(const char* uniform, const Vec4& value) const {
+  glProgramUniform4fv(id_, location(uniform), 1, glm::value_ptr(value));
+}
+void Program::set(const char* uniform, const Mat4& value) const {
+  glProgramUniformMatrix4fv(id_, location(uniform), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+}  // namespace limn::gl

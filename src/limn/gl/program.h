@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limn/base/result.h"
+#include "limn/base/vec.h"
+
+namespace limn::gl {
+
+/// The shader files of a program and what is defined in all of them.
+struct ProgramFiles {
+  std::string vertex;
+  std::string geometry;  ///< empty: none
+  std::string fragment;
+  std::vector<std::string> defines;  ///< "NAME VALUE" each
+};
+
+/// The texts of a program's stages, ready to compile; geometry may be empty.
+struct ProgramText {
+  std::string vertex, geometry, fragment;
+};
+
+/// A linked program, deleted with its owner. Setting a uniform that the linked program does not use does nothing.
+class Program {
+ public:
+  /// Compiles and links. \param name  stands for the program in messages
+  /// Errors: kNoGraphics with the driver's log.
+  static Result<std::unique_ptr<Program>> link(const ProgramText& text, const std::string& name);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void use() const;
+  void set(const char* uniform, int value) const;
+  void set(const char* uniform, float value) const;
+  void set(const char* uniform, const Vec2& value) const;
+  void set(const char* uniform, const Vec3& value) const;
+  void set(const char* uniform, const Vec4& value) const;
+  void set(const char* uniform, const Mat4& value) const;
+
+ private:
+  explicit Program(unsigned id) : id_(id) {}
+  int location(const char* uniform) const;
+  unsigned id_;
+};
+
+}  // namespace limn::gl
