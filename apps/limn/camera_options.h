@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "limn/base/bounds.h"
+#include "limn/base/camera.h"
+#include "option_table.h"
+
+namespace limn::cli {
+
+/// Where a mesh is looked at from: --eye, --view, --target, --fov, --ortho.
+struct CameraOptions {
+  std::optional<Vec3> eye;
+  std::optional<Vec2> view_deg;  ///< azimuth, elevation
+  std::optional<Vec3> target;
+  std::optional<double> fov_deg;
+  bool orthographic = false;
+
+  bool placed() const { return eye.has_value() || view_deg.has_value(); }
+};
+
+void add_camera_options(OptionTable& table, CameraOptions& options);
+
+/// Errors: kInvalidArgument for options that contradict each other; needs no mesh, so ask first.
+Result<void> check_camera(const CameraOptions& options);
+
+/// The camera, its near and far planes around the bounds. Without --eye and --view it looks from azimuth 30, elevation 20.
+/// \param aspect width / height \pre !bounds.empty()
+/// Errors: kInvalidArgument when the eye is at the target.
+Result<Camera> place_camera(const CameraOptions& options, const Bounds& bounds, float aspect);
+
+}  // namespace limn::cli
