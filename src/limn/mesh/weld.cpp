@@ -90,7 +90,8 @@ std::vector<VertexId> weld_nearly(std::span<const Vec3> positions, float toleran
     const auto vertex = static_cast<VertexId>(i);
     const std::array<double, 3> cell = cell_of(positions[i]);
     for (int n = 0; n < 27; ++n) {
-      const std::array<double, 3> near{cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1};
+      const std::array<int, 3> step{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+      const std::array<double, 3> near{cell[0] + step[0], cell[1] + step[1], cell[2] + step[2]};
       for (VertexId other = first[hash_cell(near) & (slots - 1)]; other != kInvalidId; other = next[other]) {
         const DVec3 d = DVec3(positions[i]) - DVec3(positions[other]);
         if (d.x * d.x + d.y * d.y + d.z * d.z <= width * width) sets.join(vertex, other);
