@@ -12,7 +12,7 @@ namespace limn {
 struct ExportOptions {
   MeshFormat format = MeshFormat::kUnknown;  ///< kUnknown: told by extension; "-" needs it
   bool ascii = false;                        ///< PLY and STL: text instead of little-endian binary
-  Progress progress;
+  Progress progress{};
 };
 
 /// Writes a mesh whole or not at all; "-" is standard output.

@@ -20,7 +20,7 @@ MeshFormat format_of(const std::filesystem::path& path);
 
 struct ImportOptions {
   MeshFormat format = MeshFormat::kUnknown;  ///< kUnknown: told by extension, then by content ("-" has only content)
-  Progress progress;
+  Progress progress{};
 };
 
 /// A mesh and what its reader had to do to it.

@@ -31,7 +31,7 @@ inline constexpr float kFullTurn_rad = 0.78539816f;
 struct LevelOptions {
   Criterion criterion = Criterion::kSilhouette;
   int max_level = 3;  ///< M, 0 … kMaxLevel
-  Wedge wedge;        ///< kSilhouette
+  Wedge wedge{};      ///< kSilhouette
   /// τ, the largest distance in pixels between an edge's curve and its segments; 0: levels are M times the criterion.
   /// With it s = α·clamp(½·log2(e/τ), 0, M), e the projected distance of the curve from its chord (halving a cubic's
   /// step quarters its error), α the criterion's value in [0, 1]. Needs View::pixels_per_unit.

@@ -12,14 +12,14 @@
 namespace limn {
 
 struct RefineOptions {
-  LevelOptions levels;
+  LevelOptions levels{};
   Blend blend = Blend::kSurplus;
   CenterRule center = CenterRule::kPn;
   /// Normals are computed, split at edges sharper than this, when the mesh brings none; NaN-free, in [0, π].
   float crease_angle_rad = 1.0471976f;
   bool recompute_normals = false;  ///< even when the mesh brings some
   std::size_t max_triangles = 200'000'000;
-  Progress progress;
+  Progress progress{};
 };
 
 /// Refines a mesh where its outline is, seen from `view`: normals, curves, levels, tessellation in one call.

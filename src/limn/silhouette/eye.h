@@ -17,7 +17,7 @@ Eye eye_of(const Camera& camera);
 
 /// An eye and how large things appear from it: what levels by pixels need.
 struct View {
-  Eye eye;
+  Eye eye{};
   /// Pixels that one unit of length covers: across the line of sight at distance 1 (perspective; divide by the
   /// distance), or anywhere (orthographic). 0: unknown.
   float pixels_per_unit = 0.0f;

@@ -1,5 +1,6 @@
 // What a user of the library writes first: make a shape, refine it for a view, write it, read it back.
 #include <cstdio>
+
 #include <limn/mesh/export.h>
 #include <limn/mesh/import.h>
 #include <limn/mesh/shapes.h>

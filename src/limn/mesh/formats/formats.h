@@ -20,7 +20,7 @@ struct Source {
   std::span<const std::byte> bytes;  ///< the whole file
   std::string name;                  ///< for messages
   std::filesystem::path folder;      ///< where relative references resolve; empty: references are refused
-  Progress progress;
+  Progress progress{};
 };
 
 /// Readers may leave indices unchecked only where they say so; read_mesh() checks every index, count and coordinate
