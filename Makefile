@@ -23,7 +23,7 @@ build: configure
 
 # Builds the program alone, so that a first look does not wait for the tests.
 demo: configure
-	@cmake --build --preset $(PRESET) --parallel $(JOBS) --target limn
+	@cmake --build --preset $(PRESET) --parallel $(JOBS) --target limn_cli
 	@$(BUILD)/limn demo -o $(BUILD)/demo.png
 
 test: build

@@ -56,22 +56,29 @@ fs::path linked_file(const fs::path& document, std::string target) {
   return elsewhere || target.empty() ? fs::path() : document.parent_path() / target;
 }
 
-/// Every relative link and picture of a document leads to a file.
-Problems check_links(const fs::path& root) {
+void check_links_of_line(const fs::path& root, const fs::path& file, std::size_t number, const std::string& line,
+                         Problems& problems) {
   static const std::regex markdown_link(R"(\]\(([^)\s]+)[^)]*\))");
   static const std::regex html_source(R"re((?:src|href)="([^"]+)")re");
+  for (const std::regex* pattern : {&markdown_link, &html_source}) {
+    for (std::sregex_iterator it(line.begin(), line.end(), *pattern), end; it != end; ++it) {
+      const fs::path target = linked_file(root / file, (*it)[1]);
+      if (target.empty() || fs::exists(target)) continue;
+      problems.push_back(problem(file, number, (*it)[1].str() + " is missing"));
+    }
+  }
+}
+
+/// Every relative link and picture of a document leads to a file. Blocks of code have no links.
+Problems check_links(const fs::path& root) {
   Problems problems;
   for (const fs::path& file : files_of(root)) {
     if (!is_document(file)) continue;
     const std::vector<std::string> lines = lines_of(root / file);
+    bool in_code = false;
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      for (const std::regex* pattern : {&markdown_link, &html_source}) {
-        for (std::sregex_iterator it(lines[i].begin(), lines[i].end(), *pattern), end; it != end; ++it) {
-          const fs::path target = linked_file(root / file, (*it)[1]);
-          if (!target.empty() && !fs::exists(target))
-            problems.push_back(problem(file, i + 1, (*it)[1].str() + " is missing"));
-        }
-      }
+      if (lines[i].starts_with("```")) in_code = !in_code;
+      if (!in_code) check_links_of_line(root, file, i + 1, lines[i], problems);
     }
   }
   return problems;
@@ -148,7 +155,7 @@ TEST(TreeChecks, FindEverySeededFault) {
   folder.write("docs/there.md",
                "[gone](gone.md) ![gone](a/gone.png \"title\") [web](https://example.org/x) [self](#part)\n");
   folder.write("README.md",
-               "<img src=\"docs/gone.png\"> [there](docs/there.md#part)\nopen /ho"
+               "<img src=\"docs/gone.png\"> [there](docs/there.md#part)\n```cpp\n[&](int) {}\n```\nopen /ho"
                "me/me/model.obj\n");
   EXPECT_EQ(check_lengths(folder.path()).size(), 1u);
   EXPECT_EQ(check_names(folder.path()).size(), 1u);
