@@ -33,8 +33,9 @@ struct LevelOptions {
   int max_level = 3;  ///< M, 0 … kMaxLevel
   Wedge wedge{};      ///< kSilhouette
   /// τ, the largest distance in pixels between an edge's curve and its segments; 0: levels are M times the criterion.
-  /// With it s = α·clamp(½·log2(e/τ), 0, M), e the projected distance of the curve from its chord (halving a cubic's
-  /// step quarters its error), α the criterion's value in [0, 1]. Needs View::pixels_per_unit.
+  /// With it s = α·clamp(½·log2(e/τ), 0, M), e a bound of the projected distance of the curve from its chord
+  /// (halving a cubic's step quarters it; docs/levels.md), α the criterion's value in [0, 1]. Needs
+  /// View::pixels_per_unit.
   float pixels = 0.0f;
   float near_distance =
       0.0f;  ///< kDistance; both 0: half and twice the distance from the eye to the middle of the mesh
