@@ -27,14 +27,14 @@ Mesh height_field(const GridSize& size, double half_x, double half_z, const Heig
 
 /// Hills everywhere, mountains where a slow noise is high.
 Height terrain_height(double x, double z, std::uint64_t seed) {
-  const FieldSample hills = octave_noise(DVec3(x, 0.37, z), seed, {7, 1.6, 0.10, 2.03, 0.45});
-  const FieldSample ridges = ridged_noise(DVec3(x, 0.61, z), seed + 1000, {5, 1.9, 0.20, 2.07, 0.34});
+  const FieldSample hills = octave_noise(DVec3(x, 0.37, z), seed, {6, 1.8, 0.09, 2.03, 0.42});
+  const FieldSample ridges = ridged_noise(DVec3(x, 0.61, z), seed + 1000, {6, 2.3, 0.34, 2.07, 0.38});
   const FieldSample where = gradient_noise(DVec3(x, 0.19, z) * 1.3, seed + 2000);
   // A smooth step from plains to mountains: s(w) = (1 + w' / sqrt(1 + w'^2)) / 2, w' = 3 w.
   const double w = 3 * where.value + 0.4, root = std::sqrt(1 + w * w);
   const double share = 0.5 * (1 + w / root), slope = 0.5 * 3 * 1.3 / (root * root * root);
   const DVec3 gradient = hills.gradient + share * ridges.gradient + slope * ridges.value * where.gradient;
-  return {hills.value + share * ridges.value - 0.12, gradient.x, gradient.z};
+  return {hills.value + share * ridges.value - 0.2, gradient.x, gradient.z};
 }
 
 }  // namespace

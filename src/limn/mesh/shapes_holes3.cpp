@@ -58,11 +58,12 @@ struct Net {
   bool has_right_genus() const { return static_cast<long>(points.size()) - static_cast<long>(quads.size()) == kEuler; }
 };
 
-/// The field at the points of a grid of the given spacing.
+/// The field at the points of a grid of the given spacing, moved by a share of it along each axis.
 class Grid {
  public:
-  explicit Grid(double spacing)
+  Grid(double spacing, const DVec3& shift)
       : spacing_(spacing),
+        shift_(shift),
         half_xy_(static_cast<int>(kHalfWidth / spacing) + 2),
         half_z_(static_cast<int>(kHalfDepth / spacing) + 2),
         side_xy_(2 * half_xy_),
@@ -85,16 +86,16 @@ class Grid {
   }
   bool inside(std::size_t i) const { return values_[i] < 0; }
   double value(std::size_t i) const { return values_[i]; }
-  /// Points lie off the planes of symmetry, which would cut the surface at many of them at once.
   DVec3 point(std::size_t i) const {
     const std::size_t side = static_cast<std::size_t>(side_xy_);
-    return spacing_ * DVec3(static_cast<double>(i % side) - half_xy_ + 0.5,
-                            static_cast<double>(i / side % side) - half_xy_ + 0.5,
-                            static_cast<double>(i / (side * side)) - half_z_ + 0.5);
+    const auto i_z = static_cast<int>(i / (side * side)), i_y = static_cast<int>(i / side % side),
+               i_x = static_cast<int>(i % side);
+    return spacing_ * (DVec3(i_x - half_xy_, i_y - half_xy_, i_z - half_z_) + shift_);
   }
 
  private:
   double spacing_;
+  DVec3 shift_;
   int half_xy_, half_z_, side_xy_, side_z_;
   std::vector<double> values_;
 };
@@ -154,19 +155,28 @@ Net surface_net(const Grid& grid) {
   return net;
 }
 
+/// Where the grid lies in one of several tries: first off the planes of symmetry, which would cut the surface at many
+/// of its points at once, then at places spread over the cell.
+DVec3 shift_of(int attempt) {
+  const auto share = [attempt](double step) { return std::fmod(0.5 + attempt * step, 1.0); };
+  return DVec3(share(0.8191725), share(0.6710436), share(0.5497005));
+}
+
 /// The net with the number of faces nearest to the wanted one, among those that have three holes.
 Net best_net(std::size_t faces) {
   constexpr double kFacesTimesSpacing2 = 13.0;  // measured: faces · spacing² of a fine net
-  constexpr int kTries = 24;
+  constexpr double kGoodEnough = 0.01;
+  constexpr int kTries = 32;
+  const double wanted = static_cast<double>(faces);
   Net best;
   double best_error = HUGE_VAL;
-  double spacing = std::sqrt(kFacesTimesSpacing2 / static_cast<double>(faces));
-  for (int i = 0; i < kTries && best_error > 0.004; ++i) {
-    Net net = surface_net(Grid(spacing));
+  double spacing = std::sqrt(kFacesTimesSpacing2 / wanted);
+  for (int attempt = 0; attempt < kTries && best_error > kGoodEnough; ++attempt) {
+    Net net = surface_net(Grid(spacing, shift_of(attempt)));
     const double made = 2 * static_cast<double>(net.quads.size());
-    const double error = std::abs(made / static_cast<double>(faces) - 1);
-    // Steps towards the count, each with a little more of a push, so that tries differ even when the count does not.
-    spacing *= std::sqrt(made / static_cast<double>(faces)) * (1 + (i % 2 ? -1 : 1) * 0.001 * i);
+    const double error = std::abs(made / wanted - 1);
+    // Half of Newton's step: counts jump about as the grid moves, and whole steps would follow every jump.
+    spacing *= std::pow(made / wanted, attempt == 0 ? 0.5 : 0.25);
     if (!net.has_right_genus() || error >= best_error) continue;
     best_error = error;
     best = std::move(net);

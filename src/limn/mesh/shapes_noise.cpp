@@ -1,8 +1,6 @@
 #include "limn/mesh/shapes_noise.h"
 
 #include <cmath>
-#include <glm/geometric.hpp>
-
 namespace limn::procedural {
 namespace {
 
@@ -12,13 +10,21 @@ std::uint64_t mix(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// The slope at an integer point: each component uniform in [-1, 1).
-DVec3 slope_at(std::int64_t x, std::int64_t y, std::int64_t z, std::uint64_t seed) {
-  std::uint64_t h = mix(seed + 0x9e3779b97f4a7c15ull * static_cast<std::uint64_t>(x));
-  h = mix(h + 0xc2b2ae3d27d4eb4full * static_cast<std::uint64_t>(y));
-  h = mix(h + 0x165667b19e3779f9ull * static_cast<std::uint64_t>(z));
-  const auto component = [](std::uint64_t bits) { return static_cast<double>(bits & 0x1fffff) * 0x1.0p-20 - 1.0; };
-  return {component(h), component(h >> 21), component(h >> 42)};
+/// The slope an integer point's hash stands for: each component uniform in [-1, 1).
+DVec3 slope_of(std::uint64_t hash) {
+  const auto component = [](std::uint64_t bits) {
+    return static_cast<double>(static_cast<std::int64_t>(bits & 0x1fffff)) * 0x1.0p-20 - 1.0;
+  };
+  return {component(hash), component(hash >> 21), component(hash >> 42)};
+}
+
+std::uint64_t join(std::uint64_t hash, std::int64_t coordinate) {
+  return mix(hash + 0x9e3779b97f4a7c15ull * static_cast<std::uint64_t>(coordinate));
+}
+
+std::int64_t floor_of(double x) {
+  const auto whole = static_cast<std::int64_t>(x);  // towards zero
+  return whole - (x < static_cast<double>(whole) ? 1 : 0);
 }
 
 /// Weight of the upper neighbour, and its derivative.
@@ -33,20 +39,24 @@ Fade fade(double t) {
 }  // namespace
 
 FieldSample gradient_noise(const DVec3& p, std::uint64_t seed) {
-  const DVec3 cell(std::floor(p.x), std::floor(p.y), std::floor(p.z));
-  const DVec3 f = p - cell;
+  const std::int64_t cell[3] = {floor_of(p.x), floor_of(p.y), floor_of(p.z)};
+  const DVec3 f = p - DVec3(cell[0], cell[1], cell[2]);
   const Fade fx = fade(f.x), fy = fade(f.y), fz = fade(f.z);
   FieldSample sum;
-  for (int corner = 0; corner < 8; ++corner) {
-    const int i = corner & 1, j = (corner >> 1) & 1, k = corner >> 2;
+  for (int i = 0; i < 2; ++i) {
+    const std::uint64_t hash_x = join(seed, cell[0] + i);
     const double wx = i ? fx.weight : 1 - fx.weight, dx = i ? fx.slope : -fx.slope;
-    const double wy = j ? fy.weight : 1 - fy.weight, dy = j ? fy.slope : -fy.slope;
-    const double wz = k ? fz.weight : 1 - fz.weight, dz = k ? fz.slope : -fz.slope;
-    const DVec3 slope = slope_at(static_cast<std::int64_t>(cell.x) + i, static_cast<std::int64_t>(cell.y) + j,
-                                 static_cast<std::int64_t>(cell.z) + k, seed);
-    const double height = glm::dot(slope, f - DVec3(i, j, k));
-    sum.value += wx * wy * wz * height;
-    sum.gradient += wx * wy * wz * slope + height * DVec3(dx * wy * wz, wx * dy * wz, wx * wy * dz);
+    for (int j = 0; j < 2; ++j) {
+      const std::uint64_t hash_xy = join(hash_x, cell[1] + j);
+      const double wy = j ? fy.weight : 1 - fy.weight, dy = j ? fy.slope : -fy.slope;
+      for (int k = 0; k < 2; ++k) {
+        const double wz = k ? fz.weight : 1 - fz.weight, dz = k ? fz.slope : -fz.slope;
+        const DVec3 slope = slope_of(join(hash_xy, cell[2] + k));
+        const double height = slope.x * (f.x - i) + slope.y * (f.y - j) + slope.z * (f.z - k);
+        sum.value += wx * wy * wz * height;
+        sum.gradient += wx * wy * wz * slope + height * DVec3(dx * wy * wz, wx * dy * wz, wx * wy * dz);
+      }
+    }
   }
   return sum;
 }

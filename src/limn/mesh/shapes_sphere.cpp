@@ -109,14 +109,14 @@ struct Crater {
 };
 
 std::vector<Crater> scatter_craters(std::uint64_t seed) {
-  constexpr int kCraters = 70;
+  constexpr int kCraters = 60;
   constexpr double kLargest = 0.55;
   Random random(seed);
   std::vector<Crater> craters;
   for (int i = 0; i < kCraters; ++i) {
     const DVec3 center = glm::normalize(DVec3(random.direction()));
     // Many small ones, few large ones: the number above a radius falls with its square.
-    craters.push_back({center, kLargest / std::sqrt(1 + 0.9 * (i + random.uniform()))});
+    craters.push_back({center, kLargest / std::sqrt(1 + 0.6 * (i + random.uniform()))});
   }
   return craters;
 }
@@ -127,21 +127,21 @@ FieldSample crater_depth(const Crater& crater, const DVec3& direction) {
   const double q = (2 - 2 * glm::dot(direction, crater.center)) * inverse;  // squared distance in radii
   double value = 0, slope = 0;
   if (q < 1) {
-    value -= 0.22 * (1 - q) * (1 - q);
-    slope += 0.44 * (1 - q);
+    value -= 0.36 * (1 - q) * (1 - q);
+    slope += 0.72 * (1 - q);
   }
   if (q > 0.4 && q < 2) {
     const double s = (q - 0.4) / 1.6, hump = s * (1 - s);
-    value += 0.045 * 16 * hump * hump;
-    slope += 0.045 * 32 * hump * (1 - 2 * s) / 1.6;
+    value += 0.07 * 16 * hump * hump;
+    slope += 0.07 * 32 * hump * (1 - 2 * s) / 1.6;
   }
   return {value * crater.radius, slope * crater.radius * (-2 * inverse) * crater.center};
 }
 
 /// Radius of the asteroid in a direction, and its derivative (along the sphere or not: the caller projects).
 FieldSample asteroid_radius(const DVec3& direction, std::uint64_t seed, const std::vector<Crater>& craters) {
-  const FieldSample lumps = octave_noise(direction, seed, {3, 1.1, 0.30, 1.9, 0.42});
-  const FieldSample rough = octave_noise(direction, seed + 1000, {7, 5.0, 0.045, 2.03, 0.52});
+  const FieldSample lumps = octave_noise(direction, seed, {3, 1.0, 0.36, 1.9, 0.42});
+  const FieldSample rough = octave_noise(direction, seed + 1000, {5, 5.0, 0.034, 2.03, 0.47});
   FieldSample sum{0.72 + lumps.value + rough.value, lumps.gradient + rough.gradient};
   for (const Crater& crater : craters) {
     const FieldSample one = crater_depth(crater, direction);
