@@ -17,7 +17,7 @@ struct MeshReport {
   std::size_t faces = 0;
   std::size_t edges = 0;
   std::size_t boundary_edges = 0;
-  std::size_t boundary_loops = 0;
+  std::size_t boundary_loops = 0;  ///< connected pieces of the boundary
   std::size_t inconsistent_edges = 0;
   std::size_t non_manifold_edges = 0;
   std::size_t non_manifold_vertices = 0;  ///< whose faces form more than one fan
@@ -25,7 +25,7 @@ struct MeshReport {
   std::size_t zero_area_faces = 0;        ///< three distinct collinear corners
   std::size_t duplicate_faces = 0;        ///< same three vertices as an earlier face, in any order
   std::size_t components = 0;             ///< connected through edges
-  long euler_characteristic = 0;          ///< of the welded surface
+  long euler_characteristic = 0;          ///< of the welded surface, stray vertices and degenerate faces left out
   double volume = 0;                      ///< signed; meaningful when closed
   double area = 0;
   Bounds bounds;
