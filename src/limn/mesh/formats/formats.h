@@ -54,6 +54,7 @@ struct VertexMesh {
   std::vector<Vec2> uvs;
   std::vector<Vec4> colors;
   std::vector<Triangle> faces;
+  std::vector<VertexId> source;  ///< one a vertex: the mesh's position it repeats
 };
 VertexMesh one_value_per_vertex(const Mesh& mesh);
 

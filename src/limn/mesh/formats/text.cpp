@@ -1,0 +1,15 @@
+#include "limn/mesh/formats/text.h"
+
+namespace limn::formats {
+
+void append_number(std::string& text, float value) {
+  char buffer[32];
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+void append_number(std::string& text, std::uint64_t value) {
+  char buffer[32];
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+}  // namespace limn::formats

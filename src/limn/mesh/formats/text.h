@@ -1,0 +1,149 @@
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
+
+/// Reading and writing numbers as text, correctly rounded and independent of the locale.
+namespace limn::formats {
+
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+/// The value of a token that from_chars calls out of range: 0 below the smallest number, infinity above the largest.
+template <class T>
+T out_of_range_value(std::string_view token) {
+  double wide = 0;
+  if constexpr (sizeof(T) < sizeof(double)) {
+    if (std::from_chars(token.data(), token.data() + token.size(), wide).ec == std::errc()) return static_cast<T>(wide);
+  }
+  // With an exponent its sign decides; without one, whether there is a digit other than 0 before the point.
+  const std::size_t exponent = token.find_first_of("eE");
+  const bool tiny = exponent != std::string_view::npos ? token.substr(exponent + 1).starts_with('-')
+                                                       : token.find_first_of("123456789") > token.find('.');
+  const T magnitude = tiny ? T(0) : std::numeric_limits<T>::infinity();
+  return token.front() == '-' ? -magnitude : magnitude;
+}
+
+/// Walks a text line by line, and a line number by number.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text, std::size_t lines_before = 0)
+      : next_(text.data()), end_(text.data() + text.size()), line_(lines_before) {}
+
+  /// Goes to the next line that holds more than blanks; false at the end of the text.
+  /// \param comment  a character from which on a line counts as blank; 0 for none
+  bool advance(char comment = '\0') {
+    while (next_ != end_) {
+      at_ = next_;
+      const void* const newline = std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_));
+      line_end_ = newline ? static_cast<const char*>(newline) : end_;
+      next_ = newline ? line_end_ + 1 : end_;
+      ++line_;
+      if (comment != '\0') {
+        const void* const mark = std::memchr(at_, comment, static_cast<std::size_t>(line_end_ - at_));
+        if (mark) line_end_ = static_cast<const char*>(mark);
+      }
+      skip_blanks();
+      if (at_ != line_end_) return true;
+    }
+    return false;
+  }
+
+  /// Whether the current line holds nothing more.
+  bool line_done() {
+    skip_blanks();
+    return at_ == line_end_;
+  }
+
+  /// The next token of the line without taking it; empty at its end.
+  std::string_view peek() {
+    skip_blanks();
+    const char* stop = at_;
+    while (stop != line_end_ && !is_blank(*stop))
+      ++stop;
+    return {at_, static_cast<std::size_t>(stop - at_)};
+  }
+
+  /// Takes the next token of the line; empty at its end.
+  std::string_view token() {
+    const std::string_view word = peek();
+    at_ += word.size();
+    return word;
+  }
+
+  /// Takes a number, correctly rounded; false, taking nothing, when the next token is none.
+  /// Beyond the type's range gives an infinity or a zero.
+  template <class T>
+  bool real(T& value) {
+    skip_blanks();
+    const char* const begin = at_ != line_end_ && *at_ == '+' ? at_ + 1 : at_;
+    const auto [stop, error] = std::from_chars(begin, line_end_, value);
+    if (error == std::errc::invalid_argument || (stop != line_end_ && !is_blank(*stop))) return false;
+    if (error == std::errc::result_out_of_range) {
+      value = out_of_range_value<T>({begin, static_cast<std::size_t>(stop - begin)});
+    }
+    at_ = stop;
+    return true;
+  }
+
+  /// Takes a whole number ("3", or "3.0"); false, taking nothing, when the next token is none.
+  bool whole(std::int64_t& value) {
+    skip_blanks();
+    const char* const begin = at_ != line_end_ && *at_ == '+' ? at_ + 1 : at_;
+    const auto [stop, error] = std::from_chars(begin, line_end_, value);
+    if (error == std::errc() && (stop == line_end_ || is_blank(*stop))) {
+      at_ = stop;
+      return true;
+    }
+    const char* const start = at_;
+    double wide = 0;
+    if (!real(wide) || !(wide > -9e18 && wide < 9e18) || wide != static_cast<double>(static_cast<std::int64_t>(wide))) {
+      at_ = start;
+      return false;
+    }
+    value = static_cast<std::int64_t>(wide);
+    return true;
+  }
+
+  /// The number of the current line, from 1.
+  std::size_t line() const { return line_; }
+  /// What has not been read, current line included.
+  std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - (at_ ? at_ : next_)); }
+  /// What lies behind the current line.
+  std::string_view rest() const { return {next_, static_cast<std::size_t>(end_ - next_)}; }
+  /// Takes `count` characters of the current line. \pre they are there
+  void take(std::size_t count) { at_ += count; }
+
+ private:
+  void skip_blanks() {
+    while (at_ != line_end_ && is_blank(*at_))
+      ++at_;
+  }
+
+  const char* next_;
+  const char* end_;
+  const char* at_ = nullptr;
+  const char* line_end_ = nullptr;
+  std::size_t line_ = 0;
+};
+
+/// A token fit for a message: shortened, control characters replaced.
+inline std::string in_quotes(std::string_view token) {
+  constexpr std::size_t kLongest = 32;
+  std::string text = "'";
+  for (const char c : token.substr(0, kLongest))
+    text += (c >= ' ' && c <= '~') ? c : '?';
+  return text + (token.size() > kLongest ? "…'" : "'");
+}
+
+/// Appends the shortest digits that read back as the same float.
+void append_number(std::string& text, float value);
+void append_number(std::string& text, std::uint64_t value);
+
+}  // namespace limn::formats
