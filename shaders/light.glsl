@@ -2,12 +2,12 @@
 // from the other side that draws the rim, and highlights after Cook and Torrance with GGX.
 
 const float kPi = 3.14159265;
-const vec3 kKeyDirection = vec3(-0.40, 0.52, 0.755);   // eye space
-const vec3 kKeyColor = vec3(1.00, 0.965, 0.91) * 2.35;
+const vec3 kKeyDirection = vec3(-0.50, 0.62, 0.60);   // eye space
+const vec3 kKeyColor = vec3(1.00, 0.95, 0.87) * 2.7;
 const vec3 kRimDirection = vec3(0.72, 0.18, -0.67);
-const vec3 kRimColor = vec3(0.62, 0.76, 1.00) * 0.55;
-const vec3 kSky = vec3(0.60, 0.70, 0.86);
-const vec3 kGround = vec3(0.24, 0.21, 0.19);
+const vec3 kRimColor = vec3(0.60, 0.75, 1.00) * 0.5;
+const vec3 kSky = vec3(0.50, 0.63, 0.86);
+const vec3 kGround = vec3(0.20, 0.15, 0.12);
 
 float highlight(float n_h, float n_v, float n_l, float roughness) {
   float a = roughness * roughness;
@@ -49,7 +49,10 @@ vec3 shade(vec3 n, vec3 v, vec3 base, float metallic, float roughness, vec3 up) 
   c += lit_by(normalize(kRimDirection), kRimColor, n, v, diffuse, specular, rough);
   float n_v = max(dot(n, v), 0.0);
   vec3 mirror = specular + (max(vec3(1.0 - rough), specular) - specular) * pow(1.0 - n_v, 5.0);
+  // A surface that turns away is darkened a little, so that outlines read against a white page.
+  float turned = mix(0.45, 1.0, smoothstep(0.0, 0.6, n_v));
   c += diffuse * sky(n, up) * 0.42;
-  c += mirror * sky(reflect(-v, n), up) * 0.8;
+  c += mirror * sky(reflect(-v, n), up) * 0.5;
+  c *= turned;
   return soften(c);
 }

@@ -21,8 +21,8 @@ static_assert(sizeof(Segment3) == 9 * sizeof(float) && std::is_standard_layout_v
 /// What a face looks like without a material: clay, so that shape speaks.
 Material clay() {
   Material material;
-  material.base_color = Vec4(0.71f, 0.68f, 0.64f, 1.0f);
-  material.roughness = 0.5f;
+  material.base_color = Vec4(0.60f, 0.55f, 0.47f, 1.0f);
+  material.roughness = 0.38f;
   return material;
 }
 

@@ -40,9 +40,9 @@ struct RenderOptions {
 /// Same device and driver, same bits. Leaves the context current and its GL state changed.
 /// \pre indices in range, counts consistent (read_mesh sees to that); camera.eye != camera.target
 /// Cost: memory on the device for the mesh (one value a vertex; three times the faces where corners have indices of
-/// their own) and 8 bytes a sample; programs are compiled on first use of a context. Errors: kInvalidArgument (sizes
-/// outside 1 … 16384, samples, line width, background), kUnsuitable when a material's picture cannot be decoded,
-/// kNoGraphics when the device cannot hold the picture or the mesh.
+/// their own) and 8 bytes a sample; programs are compiled on first use of a context.
+/// Errors: kInvalidArgument (sizes outside 1 … 16384, samples, line width, background), kUnsuitable when a material's
+/// picture cannot be decoded, kNoGraphics when the device cannot hold the picture or the mesh.
 Result<Image> render(gl::Context& context, const Mesh& mesh, const Camera& camera, const RenderOptions& options = {},
                      std::span<const Segment3> segments = {});
 
