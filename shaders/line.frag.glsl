@@ -47,7 +47,7 @@ void main() {
   vec3 axis = mix(window_a, window_b, t);
   float coverage = clamp(half_width_px + 0.5 - length(gl_FragCoord.xy - axis.xy), 0.0, 1.0) * min(2.0 * half_width_px, 1.0);
   float line_distance = eye_distance(axis.z);
-  float bias = pixel_size * (orthographic ? 1.0 : line_distance);
+  float bias = 0.5 * pixel_size * (orthographic ? 1.0 : line_distance);
   if (coverage == 0.0 || line_distance - bias > eye_distance(farthest_near(axis.xy))) discard;
   color = vec4(srgb_to_linear(srgb), 1.0) * coverage;
 }

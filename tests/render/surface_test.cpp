@@ -1,0 +1,173 @@
+// What a surface looks like: normals, colours, materials, textures, both sides.
+#include <algorithm>
+#include <cmath>
+
+#include "limn/mesh/shapes.h"
+
+#include "drawing_test.h"
+#include "support/temp_folder.h"
+
+namespace limn {
+namespace {
+
+using test::kTransparent;
+using test::kWhite;
+using test::picture_options;
+using test::pixel_camera;
+using test::rectangle;
+
+class Surface : public test::DrawingTest {
+ protected:
+  Image draw_small(const Mesh& mesh) { return draw(mesh, pixel_camera(16, 16), picture_options(16, 16, 1, kWhite)); }
+};
+
+std::vector<std::byte> png_of(const Image& image) {
+  const test::TempFolder folder;
+  EXPECT_TRUE(write_png(image, folder / "texture.png"));
+  const std::string bytes = test::slurp(folder / "texture.png");
+  const auto view = std::as_bytes(std::span(bytes.data(), bytes.size()));
+  return {view.begin(), view.end()};
+}
+
+/// 2 x 2 blocks of 8 pixels, rows from the top: red, green; blue, white.
+Image four_colors() {
+  Image image(16, 16);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      std::uint8_t* const pixel = image.pixel(x, y);
+      const bool right = x >= 8, low = y >= 8;
+      pixel[0] = low == right ? 255 : 0;
+      pixel[1] = right ? 255 : 0;
+      pixel[2] = low ? 255 : 0;
+      pixel[3] = 255;
+    }
+  }
+  return image;
+}
+
+TEST_F(Surface, ATextureLiesUprightWithVUpwards) {
+  Mesh mesh = rectangle(Vec2(0, 0), Vec2(16, 16));
+  Material& material = mesh.materials.emplace_back();
+  material.base_color = Vec4(1, 1, 1, 1);
+  material.base_color_image = png_of(four_colors());
+  material.base_color_image_mime = "image/png";
+  const Image image = draw_small(mesh);
+  const auto strongest = [&](int x, int y) {
+    const std::uint8_t* const p = image.pixel(x, y);
+    return std::max_element(p, p + 3) - p;
+  };
+  EXPECT_EQ(strongest(3, 3), 0);
+  EXPECT_EQ(strongest(12, 3), 1);
+  EXPECT_EQ(strongest(3, 12), 2);
+  EXPECT_GT(std::min({image.pixel(12, 12)[0], image.pixel(12, 12)[1], image.pixel(12, 12)[2]}), 100);
+}
+
+TEST_F(Surface, ATextureIsReadAsSrgb) {
+  Image grey(4, 4);
+  for (std::uint8_t& channel : grey.rgba)
+    channel = 188;
+  Mesh textured = rectangle(Vec2(0, 0), Vec2(16, 16));
+  textured.materials.emplace_back().base_color = Vec4(1, 1, 1, 1);
+  textured.materials[0].base_color_image = png_of(grey);
+  Mesh plain = rectangle(Vec2(0, 0), Vec2(16, 16));
+  const float linear = std::pow((188.0f / 255.0f + 0.055f) / 1.055f, 2.4f);
+  plain.materials.emplace_back().base_color = Vec4(linear, linear, linear, 1);
+  const Image a = draw_small(textured), b = draw_small(plain);
+  EXPECT_EQ(compare_images(a, b, 1).failing_share, 0.0);
+  EXPECT_LT(a.pixel(5, 5)[0], 250);
+}
+
+TEST_F(Surface, ABrokenTextureNamesItsMaterial) {
+  Mesh mesh = rectangle(Vec2(0, 0), Vec2(16, 16));
+  Material& material = mesh.materials.emplace_back();
+  material.name = "bark";
+  material.base_color_image.assign(40, std::byte{7});
+  const auto image = render(*context_, mesh, pixel_camera(16, 16), picture_options(16, 16, 1, kWhite));
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().code, ErrorCode::kUnsuitable);
+  EXPECT_NE(format_error(image.error()).find("bark"), std::string::npos);
+}
+
+TEST_F(Surface, VertexColoursMultiplyTheBaseColour) {
+  Mesh tinted = rectangle(Vec2(0, 0), Vec2(16, 16));
+  tinted.materials.emplace_back().base_color = Vec4(0.5f, 0.8f, 0.9f, 1);
+  tinted.colors.values.assign(4, Vec4(0.5f, 0.25f, 1.0f, 1));
+  Mesh plain = rectangle(Vec2(0, 0), Vec2(16, 16));
+  plain.materials.emplace_back().base_color = Vec4(0.25f, 0.2f, 0.9f, 1);
+  EXPECT_EQ(compare_images(draw_small(tinted), draw_small(plain), 1).failing_share, 0.0);
+}
+
+TEST_F(Surface, BothSidesAreLitAlike) {
+  Mesh back = rectangle(Vec2(0, 0), Vec2(16, 16));
+  const Image front_image = draw_small(back);
+  for (Triangle& face : back.faces)
+    std::swap(face[1], face[2]);
+  EXPECT_EQ(draw_small(back).rgba, front_image.rgba);
+  back.normals.values.assign(4, Vec3(0, 0, -1));
+  EXPECT_EQ(compare_images(draw_small(back), front_image, 1).failing_share, 0.0);
+}
+
+TEST_F(Surface, CornersWithIndicesOfTheirOwnLookLikeVerticesWithValues) {
+  const auto knot = make_shape(Shape::kKnot, {600, 1});
+  ASSERT_TRUE(knot);
+  Mesh by_vertex = *knot;
+  by_vertex.uvs = {};
+  ASSERT_TRUE(!by_vertex.normals.empty());
+  Mesh by_corner = by_vertex;
+  by_corner.normals = {};
+  for (FaceId f = 0; f < by_vertex.face_count(); ++f) {
+    for (int c = 0; c < 3; ++c) {
+      by_corner.normals.indices.push_back(static_cast<std::uint32_t>(by_corner.normals.values.size()));
+      by_corner.normals.values.push_back(by_vertex.corner(by_vertex.normals, f, c));
+    }
+  }
+  const Camera camera = fit_camera(face_bounds(by_vertex), 0.4f, 0.3f);
+  const RenderOptions options = picture_options(96, 96, 4, kTransparent);
+  EXPECT_EQ(draw(by_vertex, camera, options).rgba, draw(by_corner, camera, options).rgba);
+}
+
+TEST_F(Surface, FlatIgnoresTheMeshsNormals) {
+  Mesh mesh = rectangle(Vec2(0, 0), Vec2(16, 16));
+  const Image flat = draw_small(mesh);
+  mesh.normals.values.assign(4, Vec3(0.8f, 0.0f, 0.6f));
+  RenderOptions options = picture_options(16, 16, 1, kWhite);
+  EXPECT_NE(draw(mesh, pixel_camera(16, 16), options).rgba, flat.rgba);
+  options.flat = true;
+  EXPECT_EQ(draw(mesh, pixel_camera(16, 16), options).rgba, flat.rgba);
+}
+
+TEST_F(Surface, FarFromTheOriginThePictureIsTheSame) {
+  // Powers of two on a coarse grid, so that moving the mesh itself rounds nothing.
+  Mesh here;
+  here.positions = {Vec3(-1, -1, 0), Vec3(1, -0.5f, 0.5f), Vec3(0.25f, 1, -0.5f)};
+  here.faces = {{0, 1, 2}};
+  Mesh there = here;
+  const Vec3 far_away(65536.0f, -32768.0f, 131072.0f);
+  for (Vec3& p : there.positions)
+    p += far_away;
+  Camera camera;
+  Camera moved = camera;
+  moved.eye += far_away;
+  moved.target += far_away;
+  const RenderOptions options = picture_options(64, 64, 4, kTransparent);
+  EXPECT_EQ(draw(here, camera, options).rgba, draw(there, moved, options).rgba);
+}
+
+TEST_F(Surface, TheSamePictureTwiceHasTheSameBits) {
+  const auto torus = make_shape(Shape::kTorus, {2000, 1});
+  ASSERT_TRUE(torus);
+  const Camera camera = fit_camera(face_bounds(*torus), 0.5f, 0.5f);
+  RenderOptions options = picture_options(128, 128, 4, kTransparent);
+  options.wireframe = true;
+  const Image first = draw(*torus, camera, options);
+  EXPECT_EQ(draw(*torus, camera, options).rgba, first.rgba);
+  const auto other = gl::Context::create();
+  ASSERT_TRUE(other);
+  const auto again = render(**other, *torus, camera, options);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->rgba, first.rgba);
+  EXPECT_EQ(draw(*torus, camera, options).rgba, first.rgba);  // the first context is made current again
+}
+
+}  // namespace
+}  // namespace limn
