@@ -4,10 +4,13 @@ include(CMakePackageConfigHelpers)
 
 set(LIMN_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/limn)
 
-# limn_install_headers(FOLDER…): the public headers of these folders of src/limn; those of subfolders are ours alone.
+# limn_install_headers(FOLDER…): the headers that src/limn/public_headers.txt lists in these folders.
 function(limn_install_headers)
+  set(list ${PROJECT_SOURCE_DIR}/src/limn/public_headers.txt)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
   foreach(folder IN LISTS ARGN)
-    file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/limn/${folder}/*.h)
+    file(STRINGS ${list} headers REGEX "^${folder}/")
+    list(TRANSFORM headers PREPEND ${PROJECT_SOURCE_DIR}/src/limn/)
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/limn/${folder})
   endforeach()
 endfunction()

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <glm/geometric.hpp>
 
 namespace limn::cli {
@@ -12,9 +11,13 @@ constexpr float kRadians = 0.01745329252f;
 constexpr double kSmallestFov = 1.0;
 constexpr double kLargestFov = 170.0;
 
-float radians(double degrees) { return static_cast<float>(degrees) * kRadians; }
+float radians(double degrees) {
+  return static_cast<float>(degrees) * kRadians;
+}
 
-Result<double> parse_fov(std::string_view text) { return parse_number(text, {kSmallestFov, kLargestFov, false, false}); }
+Result<double> parse_fov(std::string_view text) {
+  return parse_number(text, {kSmallestFov, kLargestFov, false, false});
+}
 
 /// Near and far around a sphere; near stays a small share of far, where depth still has digits.
 void enclose(Camera& camera, const Bounds& bounds) {
@@ -29,7 +32,8 @@ void enclose(Camera& camera, const Bounds& bounds) {
 /// A parallel projection looks from outside the mesh, wherever along the line of sight the eye was given.
 void step_back(Camera& camera, const Bounds& bounds) {
   const DVec3 away = glm::normalize(DVec3(camera.eye) - DVec3(camera.target));
-  const double distance = glm::length(DVec3(bounds.center()) - DVec3(camera.target)) + std::max(bounds.diagonal(), 1e-6);
+  const double distance =
+      glm::length(DVec3(bounds.center()) - DVec3(camera.target)) + std::max(bounds.diagonal(), 1e-6);
   camera.eye = Vec3(DVec3(camera.target) + away * distance);
 }
 
@@ -38,7 +42,8 @@ void step_back(Camera& camera, const Bounds& bounds) {
 void add_camera_options(OptionTable& table, CameraOptions& options) {
   table.begin(Group::kCamera);
   table.parsed("--eye", "X,Y,Z", options.eye, parse_point, "viewpoint, in the mesh's coordinates");
-  table.parsed("--view", "AZ,EL", options.view_deg, parse_view, "or azimuth and elevation in degrees; fits the mesh into the picture");
+  table.parsed("--view", "AZ,EL", options.view_deg, parse_view,
+               "or azimuth and elevation in degrees; fits the mesh into the picture");
   table.parsed("--target", "X,Y,Z", options.target, parse_point, "point looked at (default: the middle of the mesh)");
   table.parsed("--fov", "DEG", options.fov_deg, parse_fov, "vertical opening angle (default 34.4)");
   table.toggle("--ortho", options.orthographic, "parallel projection");

@@ -1,5 +1,4 @@
 #include <memory>
-
 #include <nlohmann/json.hpp>
 
 #include "completion.h"
@@ -16,9 +15,8 @@ Run declare_completion(OptionTable& table) {
   option.required = true;
   return [shell](Session& session) {
     const std::string script = completion_script(*shell);
-    return (session.json() ? session.print_json(nlohmann::ordered_json{{"script", script}}) : session.print(script)).map([] {
-      return kExitDone;
-    });
+    return (session.json() ? session.print_json(nlohmann::ordered_json{{"script", script}}) : session.print(script))
+        .map([] { return kExitDone; });
   };
 }
 

@@ -1,6 +1,5 @@
-#include <memory>
-
 #include <fmt/format.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "help.h"
@@ -27,9 +26,11 @@ ordered_json describe(const Verb& verb) {
   CommonOptions common;
   bool help = false;
   declare(verb, table, common, help);
-  ordered_json json{{"name", verb.name}, {"summary", verb.summary}, {"usage", fmt::format("limn {} {}", verb.name, verb.usage)}};
+  ordered_json json{
+      {"name", verb.name}, {"summary", verb.summary}, {"usage", fmt::format("limn {} {}", verb.name, verb.usage)}};
   json["options"] = ordered_json::array();
-  for (const Option& option : table.options()) json["options"].push_back(describe(option));
+  for (const Option& option : table.options())
+    json["options"].push_back(describe(option));
   json["examples"] = ordered_json::array();
   for (const Example& example : verb.examples) {
     json["examples"].push_back({{"command", example.command}, {"what", example.what}});
@@ -50,7 +51,8 @@ Result<int> run(Session& session, const std::string& name) {
   const Verb* const verb = name.empty() ? nullptr : find_verb(name);
   if (!name.empty() && verb == nullptr) {
     std::vector<std::string_view> known;
-    for (const Verb& other : verbs()) known.push_back(other.name);
+    for (const Verb& other : verbs())
+      known.push_back(other.name);
     return fail(ErrorCode::kInvalidArgument, fmt::format("help: no such verb '{}'", name), suggest(name, known));
   }
   const Result<void> printed = session.json() ? session.print_json(describe_all(verb))

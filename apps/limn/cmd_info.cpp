@@ -1,9 +1,9 @@
-#include <memory>
-
 #include <fmt/format.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "limn/mesh/validate.h"
+
 #include "mesh_files.h"
 #include "verb.h"
 
@@ -17,7 +17,9 @@ struct InfoOptions {
   OutputOptions output;
 };
 
-ordered_json vector_json(const Vec3& v) { return ordered_json::array({v.x, v.y, v.z}); }
+ordered_json vector_json(const Vec3& v) {
+  return ordered_json::array({v.x, v.y, v.z});
+}
 
 ordered_json report_json(const MeshReport& report) {
   ordered_json json{{"vertices", report.vertices},
@@ -104,12 +106,14 @@ std::string info_text(const InfoOptions& options, const LoadedMesh& loaded, cons
   } else {
     const Vec3 &low = report.bounds.low, &high = report.bounds.high;
     text += fmt::format("{:<13}{}\n", "surface", surface_line(report));
-    text += fmt::format("{:<13}{:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n", "bounds", low.x, low.y, low.z, high.x, high.y, high.z);
+    text += fmt::format("{:<13}{:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n", "bounds", low.x, low.y, low.z, high.x,
+                        high.y, high.z);
   }
   text += fmt::format("{:<13}{}\n", "attributes", attributes_line(report)) + defects(report);
   for (const Suitability& one : suitability(report)) {
     std::string line = one.can_run ? "yes" : "no";
-    for (std::size_t i = 0; i < one.reasons.size(); ++i) line += (i == 0 ? ": " : "; ") + one.reasons[i];
+    for (std::size_t i = 0; i < one.reasons.size(); ++i)
+      line += (i == 0 ? ": " : "; ") + one.reasons[i];
     text += fmt::format("{:<13}{}\n", one.technique, line);
   }
   return text;
@@ -153,7 +157,8 @@ Verb info_verb() {
               "MODEL [--repair [-o FILE]]",
               true,
               {{{"limn info knot.ply", "counts, surface, attributes, techniques"},
-                {"limn info knot.ply --repair -o repaired.ply", "remove what no technique can use, say what, and keep the result"},
+                {"limn info knot.ply --repair -o repaired.ply",
+                 "remove what no technique can use, say what, and keep the result"},
                 {"limn info - --json < knot.ply", "the same figures for a script"}}},
               declare_info};
 }

@@ -1,9 +1,9 @@
-#include <memory>
-
 #include <fmt/format.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "limn/mesh/shapes.h"
+
 #include "mesh_files.h"
 #include "nearest.h"
 #include "verb.h"
@@ -48,16 +48,17 @@ Result<void> report(Session& session, const MakeOptions& options, const Mesh& me
                           counted(mesh.positions.size(), "vertex")));
   if (!session.json()) return {};
   return session.print_json(ordered_json{{"shape", options.shape},
-                                    {"output", options.output.path},
-                                    {"faces", mesh.face_count()},
-                                    {"vertices", mesh.positions.size()},
-                                    {"seed", options.seed}});
+                                         {"output", options.output.path},
+                                         {"faces", mesh.face_count()},
+                                         {"vertices", mesh.positions.size()},
+                                         {"seed", options.seed}});
 }
 
 Result<int> run(Session& session, const MakeOptions& options) {
   if (options.list) return list_shapes(session);
   if (options.shape.empty() || options.output.path.empty()) {
-    return fail(ErrorCode::kInvalidArgument, fmt::format("make: {} is missing", options.shape.empty() ? "SHAPE" : "-o FILE"),
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("make: {} is missing", options.shape.empty() ? "SHAPE" : "-o FILE"),
                 "usage: limn make SHAPE -o FILE [--faces N]; limn make --list shows the shapes");
   }
   const Result<Shape> shape = find_shape(options.shape);
@@ -66,16 +67,17 @@ Result<int> run(Session& session, const MakeOptions& options) {
   if (!checked) return tl::unexpected(checked.error());
   const Result<Mesh> mesh = make_shape(*shape, {static_cast<std::size_t>(options.faces), options.seed});
   if (!mesh) return tl::unexpected(mesh.error());
-  return save(session, *mesh, options.output)
-      .and_then([&] { return report(session, options, *mesh); })
-      .map([] { return kExitDone; });
+  return save(session, *mesh, options.output).and_then([&] { return report(session, options, *mesh); }).map([] {
+    return kExitDone;
+  });
 }
 
 Run declare_make(OptionTable& table) {
   const auto options = std::make_shared<MakeOptions>();
   Option& shape = table.argument("SHAPE", options->shape, "what to make", ValueKind::kChoice);
   shape.required = false;
-  for (const ShapeInfo& info : shapes()) shape.choices.emplace_back(info.name);
+  for (const ShapeInfo& info : shapes())
+    shape.choices.emplace_back(info.name);
   table.count("--faces", options->faces, 1, kMostFaces, "about this many triangles (default: the shape's own)");
   table.count("--seed", options->seed, 0, UINT64_MAX, "of asteroid and terrain (default 1)");
   table.toggle("--list", options->list, "print the shapes' names and what they are");

@@ -1,6 +1,5 @@
-#include <memory>
-
 #include <fmt/format.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "man_page.h"
@@ -14,7 +13,8 @@ Result<int> run(Session& session, const std::string& name) {
   const Verb* const verb = name.empty() ? nullptr : find_verb(name);
   if (!name.empty() && verb == nullptr) {
     std::vector<std::string_view> known;
-    for (const Verb& other : verbs()) known.push_back(other.name);
+    for (const Verb& other : verbs())
+      known.push_back(other.name);
     return fail(ErrorCode::kInvalidArgument, fmt::format("man: no such verb '{}'", name), suggest(name, known));
   }
   const std::string page = verb != nullptr ? verb_man_page(*verb) : program_man_page();

@@ -1,8 +1,7 @@
 #include <array>
 #include <chrono>
-#include <memory>
-
 #include <fmt/format.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "camera_options.h"
@@ -25,20 +24,23 @@ struct RefineFlags {
 
 Result<void> check(const Session& session, const RefineFlags& flags) {
   if (flags.levels.needs_eye() && !flags.camera.placed()) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("refine: {} needs to know where the mesh is seen from",
-                            flags.levels.pixels > 0 ? "--pixels" : "--criterion " + std::string(criterion_name(flags.levels.criterion))),
-                "add --view AZ,EL or --eye X,Y,Z, or use --criterion uniform");
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format("refine: {} needs to know where the mesh is seen from",
+                    flags.levels.pixels > 0 ? "--pixels"
+                                            : "--criterion " + std::string(criterion_name(flags.levels.criterion))),
+        "add --view AZ,EL or --eye X,Y,Z, or use --criterion uniform");
   }
-  return check_camera(flags.camera)
-      .and_then([&] { return check_levels(flags.levels); })
-      .and_then([&] { return check_output(session, flags.output); });
+  return check_camera(flags.camera).and_then([&] { return check_levels(flags.levels); }).and_then([&] {
+    return check_output(session, flags.output);
+  });
 }
 
 /// How many of the input's faces were refined at each level, from 0.
 std::array<std::size_t, kMaxLevel + 1> faces_by_level(const Refinement& refined) {
   std::array<std::size_t, kMaxLevel + 1> counts{};
-  for (const std::uint8_t level : refined.face_level) ++counts[level];
+  for (const std::uint8_t level : refined.face_level)
+    ++counts[level];
   return counts;
 }
 
@@ -51,23 +53,26 @@ std::string levels_text(const Refinement& refined, int max_level) {
   return text;
 }
 
-Result<void> report(Session& session, const RefineFlags& flags, const LoadedMesh& loaded, const Refinement& refined, double time_ms) {
-  session.say(fmt::format("{}: {} to {}, {:.1f} ms; faces by level: {}", flags.output.path, counted(loaded.mesh.face_count(), "triangle"),
-                          counted(refined.mesh.face_count(), "triangle"), time_ms, levels_text(refined, flags.levels.max_level)));
+Result<void> report(Session& session, const RefineFlags& flags, const LoadedMesh& loaded, const Refinement& refined,
+                    double time_ms) {
+  session.say(fmt::format("{}: {} to {}, {:.1f} ms; faces by level: {}", flags.output.path,
+                          counted(loaded.mesh.face_count(), "triangle"), counted(refined.mesh.face_count(), "triangle"),
+                          time_ms, levels_text(refined, flags.levels.max_level)));
   if (!session.json()) return {};
   const auto counts = faces_by_level(refined);
-  return session.print_json({{"input", flags.input.path},
-                             {"output", flags.output.path},
-                             {"criterion", criterion_name(flags.levels.criterion)},
-                             {"max_level", flags.levels.max_level},
-                             {"triangles_in", loaded.mesh.face_count()},
-                             {"triangles_out", refined.mesh.face_count()},
-                             {"vertices_out", refined.mesh.positions.size()},
-                             {"refined_faces", refined.refined_faces},
-                             {"faces_by_level", std::vector<std::size_t>(counts.begin(), counts.begin() + flags.levels.max_level + 1)},
-                             {"time_ms", time_ms},
-                             {"notes", loaded.notes},
-                             {"repairs", loaded.repairs}});
+  return session.print_json(
+      {{"input", flags.input.path},
+       {"output", flags.output.path},
+       {"criterion", criterion_name(flags.levels.criterion)},
+       {"max_level", flags.levels.max_level},
+       {"triangles_in", loaded.mesh.face_count()},
+       {"triangles_out", refined.mesh.face_count()},
+       {"vertices_out", refined.mesh.positions.size()},
+       {"refined_faces", refined.refined_faces},
+       {"faces_by_level", std::vector<std::size_t>(counts.begin(), counts.begin() + flags.levels.max_level + 1)},
+       {"time_ms", time_ms},
+       {"notes", loaded.notes},
+       {"repairs", loaded.repairs}});
 }
 
 Result<int> run(Session& session, const RefineFlags& flags) {
@@ -112,7 +117,8 @@ Verb refine_verb() {
               {{{"limn refine knot.ply -o fine.ply --view 30,20", "seen from 30 degrees to the right and 20 above"},
                 {"limn refine knot.ply -o fine.obj --eye 0,1,4 --pixels 0.25 --size 1920x1080 --max-level 5",
                  "as fine as a picture of that size can show"},
-                {"limn refine knot.ply -o smooth.glb --criterion uniform --max-level 2", "everywhere, for no particular view"}}},
+                {"limn refine knot.ply -o smooth.glb --criterion uniform --max-level 2",
+                 "everywhere, for no particular view"}}},
               declare_refine};
 }
 

@@ -13,13 +13,16 @@ constexpr bool kWithOpenGl = false;
 
 Result<int> run(Session& session) {
   const Result<void> printed =
-      session.json() ? session.print_json(nlohmann::ordered_json{
-                           {"name", "limn"}, {"version", LIMN_VERSION}, {"opengl", kWithOpenGl}, {"threads", thread_count()}})
-                     : session.print("limn " LIMN_VERSION "\n");
+      session.json()
+          ? session.print_json(nlohmann::ordered_json{
+                {"name", "limn"}, {"version", LIMN_VERSION}, {"opengl", kWithOpenGl}, {"threads", thread_count()}})
+          : session.print("limn " LIMN_VERSION "\n");
   return printed.map([] { return kExitDone; });
 }
 
-Run declare_version(OptionTable&) { return run; }
+Run declare_version(OptionTable&) {
+  return run;
+}
 
 }  // namespace
 

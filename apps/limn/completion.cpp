@@ -1,9 +1,8 @@
 #include "completion.h"
 
-#include <vector>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <vector>
 
 #include "verb.h"
 
@@ -29,7 +28,8 @@ std::vector<Described> listed_verbs() {
 
 std::vector<std::string> verb_names(const std::vector<Described>& all) {
   std::vector<std::string> names;
-  for (const Described& one : all) names.emplace_back(one.verb->name);
+  for (const Described& one : all)
+    names.emplace_back(one.verb->name);
   return names;
 }
 
@@ -40,7 +40,8 @@ std::vector<std::string> choices_of(const Option& option, const std::vector<std:
 
 std::string quoted(std::string_view text) {
   std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  for (const char c : text)
+    out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
 }
 
@@ -59,8 +60,9 @@ std::string bash_case(const Described& one, const std::vector<std::string>& name
     }
     flags.push_back(names_of(option, " "));
     if (option.is_switch()) continue;
-    const std::string reply = option.kind == ValueKind::kFile ? "COMPREPLY=($(compgen -f -- \"$word\"))"
-                                                              : fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$word\"))", list);
+    const std::string reply = option.kind == ValueKind::kFile
+                                  ? "COMPREPLY=($(compgen -f -- \"$word\"))"
+                                  : fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$word\"))", list);
     values += fmt::format("        {}) {}; return ;;\n", names_of(option, "|"), reply);
   }
   std::string text = fmt::format("    {})\n", one.verb->name);
@@ -72,11 +74,15 @@ std::string bash_case(const Described& one, const std::vector<std::string>& name
 std::string bash_script(const std::vector<Described>& all) {
   const std::vector<std::string> names = verb_names(all);
   std::string text = "# bash completion for limn, made by `limn completion bash`\n_limn() {\n";
-  text += "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} flags='' words=''\n  COMPREPLY=()\n";
-  text += fmt::format("  if ((COMP_CWORD == 1)); then\n    COMPREPLY=($(compgen -W '{} --help --version' -- \"$word\"))\n    return\n  fi\n",
-                      fmt::join(names, " "));
+  text +=
+      "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} flags='' words=''\n  COMPREPLY=()\n";
+  text += fmt::format(
+      "  if ((COMP_CWORD == 1)); then\n    COMPREPLY=($(compgen -W '{} --help --version' -- \"$word\"))\n    return\n  "
+      "fi\n",
+      fmt::join(names, " "));
   text += "  case ${COMP_WORDS[1]} in\n";
-  for (const Described& one : all) text += bash_case(one, names);
+  for (const Described& one : all)
+    text += bash_case(one, names);
   text += "  esac\n  if [[ $word == -* ]]; then\n    COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n  else\n";
   text += "    COMPREPLY=($(compgen -f -W \"$words\" -- \"$word\"))\n  fi\n}\ncomplete -o filenames -F _limn limn\n";
   return text;
@@ -99,7 +105,8 @@ std::string zsh_action(const Option& option, const std::vector<std::string>& nam
 }
 
 std::string zsh_option(const Option& option, const std::vector<std::string>& names) {
-  const std::string value = option.is_switch() ? "" : fmt::format(":{}:{}", zsh_escaped(option.value), zsh_action(option, names));
+  const std::string value =
+      option.is_switch() ? "" : fmt::format(":{}:{}", zsh_escaped(option.value), zsh_action(option, names));
   if (option.positional()) return quoted((option.required ? "" : ":") + value);
   const std::string tail = fmt::format("[{}]{}", zsh_escaped(option.what), value);
   if (option.short_name.empty()) return quoted((option.repeatable ? "*" : "") + option.name + tail);
@@ -113,10 +120,13 @@ std::string zsh_script(const std::vector<Described>& all) {
   for (const Described& one : all) {
     text += fmt::format("      {}\n", quoted(fmt::format("{}:{}", one.verb->name, zsh_escaped(one.verb->summary))));
   }
-  text += "    )\n    _describe verb verbs\n    return\n  fi\n  local verb=$words[2]\n  shift words\n  ((CURRENT--))\n  case $verb in\n";
+  text +=
+      "    )\n    _describe verb verbs\n    return\n  fi\n  local verb=$words[2]\n  shift words\n  ((CURRENT--))\n  "
+      "case $verb in\n";
   for (const Described& one : all) {
     text += fmt::format("    {})\n      _arguments -S", one.verb->name);
-    for (const Option& option : one.table.options()) text += " \\\n        " + zsh_option(option, names);
+    for (const Option& option : one.table.options())
+      text += " \\\n        " + zsh_option(option, names);
     text += " ;;\n";
   }
   return text + "  esac\n}\n_limn \"$@\"\n";
@@ -137,10 +147,12 @@ std::string fish_script(const std::vector<Described>& all) {
   const std::vector<std::string> names = verb_names(all);
   std::string text = "# fish completion for limn, made by `limn completion fish`\n";
   for (const Described& one : all) {
-    text += fmt::format("complete -c limn -n __fish_use_subcommand -f -a {} -d {}\n", one.verb->name, quoted(one.verb->summary));
+    text += fmt::format("complete -c limn -n __fish_use_subcommand -f -a {} -d {}\n", one.verb->name,
+                        quoted(one.verb->summary));
   }
   for (const Described& one : all) {
-    for (const Option& option : one.table.options()) text += fish_option(one, option, names);
+    for (const Option& option : one.table.options())
+      text += fish_option(one, option, names);
   }
   return text;
 }
@@ -150,9 +162,12 @@ std::string fish_script(const std::vector<Described>& all) {
 std::string completion_script(Shell shell) {
   const std::vector<Described> all = listed_verbs();
   switch (shell) {
-    case Shell::kBash: return bash_script(all);
-    case Shell::kZsh: return zsh_script(all);
-    case Shell::kFish: return fish_script(all);
+    case Shell::kBash:
+      return bash_script(all);
+    case Shell::kZsh:
+      return zsh_script(all);
+    case Shell::kFish:
+      return fish_script(all);
   }
   return {};
 }

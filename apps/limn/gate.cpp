@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
-
 #include <fmt/format.h>
+#include <utility>
 
 #include "parse_value.h"
 
@@ -12,7 +11,10 @@ namespace limn::cli {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, double OutlineError::*>, 4> kFigures{
-    {{"mean_px", &OutlineError::mean_px}, {"p95_px", &OutlineError::p95_px}, {"max_px", &OutlineError::max_px}, {"iou", &OutlineError::iou}}};
+    {{"mean_px", &OutlineError::mean_px},
+     {"p95_px", &OutlineError::p95_px},
+     {"max_px", &OutlineError::max_px},
+     {"iou", &OutlineError::iou}}};
 
 using Comparator = bool (*)(double, double);
 /// Longer ones first, so that ">=" is not read as ">".
@@ -50,6 +52,8 @@ Result<Gate> parse_gate(std::string_view text) {
   return Gate{std::string(text), *figure, *comparator, *limit};
 }
 
-bool trips(const Gate& gate, const OutlineError& error) { return gate.holds(error.*gate.figure, gate.limit); }
+bool trips(const Gate& gate, const OutlineError& error) {
+  return gate.holds(error.*gate.figure, gate.limit);
+}
 
 }  // namespace limn::cli

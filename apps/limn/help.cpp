@@ -1,10 +1,9 @@
 #include "help.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace limn::cli {
 namespace {
@@ -42,12 +41,14 @@ void append_group(std::string& page, const OptionTable& table, Group group, bool
   if (options.empty()) return;
   if (shortened) {
     std::vector<std::string> words;
-    for (const Option* option : options) words.push_back(short_spelling(*option));
+    for (const Option* option : options)
+      words.push_back(short_spelling(*option));
     append_wrapped(page, fmt::format("  {}:", group_title(group)), words);
     return;
   }
   std::size_t width = 0;
-  for (const Option& option : table.options()) width = std::max(width, std::min<std::size_t>(option.spelled().size(), 34));
+  for (const Option& option : table.options())
+    width = std::max(width, std::min<std::size_t>(option.spelled().size(), 34));
   for (const Option* option : options) {
     const std::string spelled = option->spelled();
     // A long list of choices pushes its own line only.
@@ -61,7 +62,8 @@ std::string heading(const Verb& verb) {
 
 std::string options_text(const OptionTable& table, const std::set<Group>& shortened) {
   std::string text;
-  for (const Group group : {Group::kArguments, Group::kOwn, Group::kFiles, Group::kCamera, Group::kLevels, Group::kCommon}) {
+  for (const Group group :
+       {Group::kArguments, Group::kOwn, Group::kFiles, Group::kCamera, Group::kLevels, Group::kCommon}) {
     append_group(text, table, group, shortened.contains(group));
   }
   return text;
@@ -110,16 +112,19 @@ std::string verb_screen(const Verb& verb) {
 std::string verb_page(const Verb& verb) {
   std::string page = heading(verb);
   const OptionTable table = table_of(verb);
-  for (const Group group : {Group::kArguments, Group::kOwn, Group::kFiles, Group::kCamera, Group::kLevels, Group::kCommon}) {
+  for (const Group group :
+       {Group::kArguments, Group::kOwn, Group::kFiles, Group::kCamera, Group::kLevels, Group::kCommon}) {
     if (members(table, group).empty()) continue;
     page += fmt::format("{}:\n", group_title(group));
     append_group(page, table, group, false);
     page += "\n";
   }
   page += "examples:\n";
-  for (const Example& example : verb.examples) page += fmt::format("  # {}\n  {}\n", example.what, example.command);
+  for (const Example& example : verb.examples)
+    page += fmt::format("  # {}\n  {}\n", example.what, example.command);
   page += "\nThe files they use were made by\n";
-  for (const std::string_view line : example_files()) page += fmt::format("  {}\n", line);
+  for (const std::string_view line : example_files())
+    page += fmt::format("  {}\n", line);
   return page;
 }
 

@@ -1,10 +1,9 @@
 #include "interrupt.h"
 
+#include <csignal>
 #include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
-
-#include <csignal>
 
 namespace limn::cli {
 namespace {
@@ -16,7 +15,8 @@ void on_signal(int signal) {
   stopped_by = signal;
 }
 
-/// A standard stream the caller closed would be taken by the next file opened, which messages would then be written into.
+/// A standard stream the caller closed would be taken by the next file opened, which messages would then be written
+/// into.
 void occupy_standard_streams() {
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(fd, F_GETFD) >= 0) continue;
@@ -39,10 +39,14 @@ void install_signal_handlers() {
   ::sigaction(SIGPIPE, &action, nullptr);
 }
 
-int stop_signal() { return stopped_by; }
+int stop_signal() {
+  return stopped_by;
+}
 
 bool stdout_closed() {
-  struct pollfd state {STDOUT_FILENO, POLLOUT, 0};
+  struct pollfd state {
+    STDOUT_FILENO, POLLOUT, 0
+  };
   return ::poll(&state, 1, 0) > 0 && (state.revents & POLLERR) != 0;
 }
 

@@ -2,8 +2,8 @@
 
 namespace limn::cli {
 
-/// Makes Ctrl-C (SIGINT) and SIGTERM ask the work to stop instead of ending the program at once, so that nothing is left
-/// half written; a second signal ends it at once. Makes writing into a closed pipe an error instead of a signal.
+/// Makes Ctrl-C (SIGINT) and SIGTERM ask the work to stop instead of ending the program at once, so that nothing is
+/// left half written; a second signal ends it at once. Makes writing into a closed pipe an error instead of a signal.
 void install_signal_handlers();
 
 /// The signal that asked to stop, or 0.

@@ -14,7 +14,8 @@ bool LevelFlags::needs_eye() const {
 void add_level_options(OptionTable& table, LevelFlags& flags) {
   table.begin(Group::kLevels);
   table.integer("--max-level", flags.max_level, 0, kMaxLevel, "deepest level M, 2^M segments an edge (default 3)");
-  table.number("--pixels", "PX", flags.pixels, {0.0, 1e6, true, false}, "refine until edges are this near their curves in the picture");
+  table.number("--pixels", "PX", flags.pixels, {0.0, 1e6, true, false},
+               "refine until edges are this near their curves in the picture");
   table.choice("--criterion", flags.criterion,
                {{"silhouette", Criterion::kSilhouette},
                 {"distance", Criterion::kDistance},
@@ -25,10 +26,14 @@ void add_level_options(OptionTable& table, LevelFlags& flags) {
   table.choice("--beta", flags.wedge_rule, {{"angle", Wedge::Rule::kAngle}, {"quarter", Wedge::Rule::kQuarter}},
                "width of the band along the outline (default angle)");
   table.number("--wedge", "DEG", flags.wedge_deg, {0.0, 90.0, true, true}, "half the band's angle (default 20)");
-  table.choice("--blend", flags.blend, {{"surplus", Blend::kSurplus}, {"paper", Blend::kPaper}}, "between levels (default surplus)");
-  table.choice("--center", flags.center, {{"pn", CenterRule::kPn}, {"mean", CenterRule::kMean}}, "a patch's middle point (default pn)");
-  table.choice("--normals", flags.compute_normals, {{"file", false}, {"compute", true}}, "the file's, or computed anew (default file)");
-  table.number("--crease-angle", "DEG", flags.crease_deg, {0.0, 180.0, false, false}, "computed normals split at sharper edges (default 60)");
+  table.choice("--blend", flags.blend, {{"surplus", Blend::kSurplus}, {"paper", Blend::kPaper}},
+               "between levels (default surplus)");
+  table.choice("--center", flags.center, {{"pn", CenterRule::kPn}, {"mean", CenterRule::kMean}},
+               "a patch's middle point (default pn)");
+  table.choice("--normals", flags.compute_normals, {{"file", false}, {"compute", true}},
+               "the file's, or computed anew (default file)");
+  table.number("--crease-angle", "DEG", flags.crease_deg, {0.0, 180.0, false, false},
+               "computed normals split at sharper edges (default 60)");
   table.number("--near", "D", flags.near_distance, {0.0, 1e30, true, false}, "distance: full level up to here");
   table.number("--far", "D", flags.far_distance, {0.0, 1e30, true, false}, "distance: level 0 from here");
 }
@@ -36,7 +41,8 @@ void add_level_options(OptionTable& table, LevelFlags& flags) {
 Result<void> check_levels(const LevelFlags& flags) {
   const bool any = flags.near_distance > 0 || flags.far_distance > 0;
   if (any && flags.criterion != Criterion::kDistance) {
-    return fail(ErrorCode::kInvalidArgument, "--near and --far are for --criterion distance", "add it or leave them out");
+    return fail(ErrorCode::kInvalidArgument, "--near and --far are for --criterion distance",
+                "add it or leave them out");
   }
   if (any && flags.near_distance >= flags.far_distance) {
     return fail(ErrorCode::kInvalidArgument, "--near must be below --far", "give both");
@@ -63,11 +69,16 @@ RefineOptions refine_options(const LevelFlags& flags, const Progress& progress) 
 
 std::string_view criterion_name(Criterion criterion) {
   switch (criterion) {
-    case Criterion::kSilhouette: return "silhouette";
-    case Criterion::kDistance: return "distance";
-    case Criterion::kCurvature: return "curvature";
-    case Criterion::kUniform: return "uniform";
-    case Criterion::kTags: return "tags";
+    case Criterion::kSilhouette:
+      return "silhouette";
+    case Criterion::kDistance:
+      return "distance";
+    case Criterion::kCurvature:
+      return "curvature";
+    case Criterion::kUniform:
+      return "uniform";
+    case Criterion::kTags:
+      return "tags";
   }
   return "";
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "camera_options.h"
 #include "limn/refine/refine.h"
+
+#include "camera_options.h"
 #include "option_table.h"
 
 namespace limn::cli {

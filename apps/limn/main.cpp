@@ -1,9 +1,8 @@
 #include <exception>
+#include <fmt/format.h>
 #include <new>
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "help.h"
 #include "interrupt.h"
@@ -34,7 +33,8 @@ Result<int> refuse_verb(const std::string& word) {
     if (verb.listed) known.push_back(verb.name);
   }
   if (word.starts_with('-')) {
-    return fail(ErrorCode::kInvalidArgument, fmt::format("no such flag '{}'", word), "flags follow a verb; see limn --help");
+    return fail(ErrorCode::kInvalidArgument, fmt::format("no such flag '{}'", word),
+                "flags follow a verb; see limn --help");
   }
   return fail(ErrorCode::kInvalidArgument, fmt::format("no such verb '{}'", word),
               suggest(word, known) + " (limn --help lists all)");

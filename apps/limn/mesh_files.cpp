@@ -1,7 +1,6 @@
 #include "mesh_files.h"
 
 #include <filesystem>
-
 #include <fmt/format.h>
 
 #include "limn/mesh/repair.h"
@@ -45,7 +44,8 @@ void add_input_options(OptionTable& table, InputOptions& options) {
 }
 
 void add_output_options(OptionTable& table, OutputOptions& options, bool required) {
-  table.file("-o,--output", options.path, "file to write; its extension gives the format; - is standard output").required = required;
+  table.file("-o,--output", options.path, "file to write; its extension gives the format; - is standard output")
+      .required = required;
   add_format(table, "--format", options.format, "of the output where its name does not tell");
   table.toggle("--ascii", options.ascii, "PLY and STL as text");
 }
@@ -58,13 +58,15 @@ Result<LoadedMesh> load(Session& session, const InputOptions& options) {
   if (!read) return tl::unexpected(read.error());
   const std::string name = options.path == "-" ? "standard input" : options.path;
   LoadedMesh loaded{std::move(read->mesh), read->format, std::move(read->notes), {}};
-  for (const std::string& note : loaded.notes) session.say(fmt::format("{}: {}", name, note));
+  for (const std::string& note : loaded.notes)
+    session.say(fmt::format("{}: {}", name, note));
   if (options.repair) {
     Repair repaired = repair(loaded.mesh);
     loaded.mesh = std::move(repaired.mesh);
     loaded.repairs = std::move(repaired.changes);
     if (loaded.repairs.empty()) session.say(fmt::format("{}: repair: nothing to change", name));
-    for (const std::string& change : loaded.repairs) session.say(fmt::format("{}: repair: {}", name, change));
+    for (const std::string& change : loaded.repairs)
+      session.say(fmt::format("{}: repair: {}", name, change));
   }
   return loaded;
 }
@@ -111,21 +113,30 @@ Result<void> save(Session& session, const Mesh& mesh, const OutputOptions& optio
 
 std::string_view format_name(MeshFormat format) {
   switch (format) {
-    case MeshFormat::kPly: return "PLY";
-    case MeshFormat::kStl: return "STL";
-    case MeshFormat::kOff: return "OFF";
-    case MeshFormat::kObj: return "OBJ";
-    case MeshFormat::kGltf: return "glTF";
-    case MeshFormat::kGlb: return "GLB";
-    case MeshFormat::kOther: return "other";
-    case MeshFormat::kUnknown: return "unknown";
+    case MeshFormat::kPly:
+      return "PLY";
+    case MeshFormat::kStl:
+      return "STL";
+    case MeshFormat::kOff:
+      return "OFF";
+    case MeshFormat::kObj:
+      return "OBJ";
+    case MeshFormat::kGltf:
+      return "glTF";
+    case MeshFormat::kGlb:
+      return "GLB";
+    case MeshFormat::kOther:
+      return "other";
+    case MeshFormat::kUnknown:
+      return "unknown";
   }
   return "";
 }
 
 std::string counted(std::size_t count, std::string_view noun) {
   std::string digits = fmt::format("{}", count);
-  for (std::size_t i = 3; i < digits.size(); i += 4) digits.insert(digits.size() - i, ",");
+  for (std::size_t i = 3; i < digits.size(); i += 4)
+    digits.insert(digits.size() - i, ",");
   if (count == 1) return fmt::format("{} {}", digits, noun);
   if (noun.ends_with("vertex")) return fmt::format("{} {}vertices", digits, noun.substr(0, noun.size() - 6));
   return fmt::format("{} {}s", digits, noun);

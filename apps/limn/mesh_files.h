@@ -6,6 +6,7 @@
 
 #include "limn/mesh/export.h"
 #include "limn/mesh/import.h"
+
 #include "option_table.h"
 #include "session.h"
 

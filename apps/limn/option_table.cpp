@@ -9,12 +9,18 @@ namespace limn::cli {
 
 std::string_view group_title(Group group) {
   switch (group) {
-    case Group::kArguments: return "arguments";
-    case Group::kOwn: return "options";
-    case Group::kFiles: return "files";
-    case Group::kCamera: return "camera";
-    case Group::kLevels: return "levels";
-    case Group::kCommon: return "common";
+    case Group::kArguments:
+      return "arguments";
+    case Group::kOwn:
+      return "options";
+    case Group::kFiles:
+      return "files";
+    case Group::kCamera:
+      return "camera";
+    case Group::kLevels:
+      return "levels";
+    case Group::kCommon:
+      return "common";
   }
   return "";
 }

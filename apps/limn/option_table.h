@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limn/base/result.h"
+
 #include "parse_value.h"
 
 namespace limn::cli {
@@ -22,10 +23,10 @@ enum class ValueKind { kFree, kFile, kChoice };
 
 /// One argument or flag of a verb: how it is written, what it means, and where its value goes.
 struct Option {
-  std::string short_name;            ///< "-o"; may be empty
-  std::string name;                  ///< "--output", or "MODEL" for an argument without a flag
-  std::string value;                 ///< what its value is called ("FILE"); empty for a switch
-  std::string what;                  ///< one short line
+  std::string short_name;  ///< "-o"; may be empty
+  std::string name;        ///< "--output", or "MODEL" for an argument without a flag
+  std::string value;       ///< what its value is called ("FILE"); empty for a switch
+  std::string what;        ///< one short line
   Group group = Group::kOwn;
   ValueKind kind = ValueKind::kFree;
   std::vector<std::string> choices;  ///< kChoice
@@ -58,7 +59,8 @@ class OptionTable {
 
   /// A value read by one of the parse_… functions.
   template <class T, class Target>
-  Option& parsed(std::string name, std::string value, Target& target, Result<T> (*parse)(std::string_view), std::string what) {
+  Option& parsed(std::string name, std::string value, Target& target, Result<T> (*parse)(std::string_view),
+                 std::string what) {
     return add(std::move(name), std::move(value), std::move(what), [&target, parse](const std::string& text) {
       return parse(text).map([&target](const T& read) { target = read; });
     });
@@ -66,10 +68,12 @@ class OptionTable {
 
   /// One of a few words.
   template <class T>
-  Option& choice(std::string name, T& target, std::initializer_list<std::pair<std::string_view, T>> words, std::string what) {
+  Option& choice(std::string name, T& target, std::initializer_list<std::pair<std::string_view, T>> words,
+                 std::string what) {
     std::vector<std::pair<std::string, T>> table(words.begin(), words.end());
     std::vector<std::string> names;
-    for (const auto& word : table) names.push_back(word.first);
+    for (const auto& word : table)
+      names.push_back(word.first);
     Option& option = add_choice(std::move(name), names, std::move(what));
     option.set = [&target, table, names](const std::string& text) -> Result<void> {
       for (const auto& [word, value] : table) {
@@ -83,7 +87,8 @@ class OptionTable {
   }
 
  private:
-  Option& add(std::string name, std::string value, std::string what, std::function<Result<void>(const std::string&)> set);
+  Option& add(std::string name, std::string value, std::string what,
+              std::function<Result<void>(const std::string&)> set);
   Option& add_choice(std::string name, std::vector<std::string> words, std::string what);
   static Result<void> not_a_choice(const std::string& text, const std::vector<std::string>& words);
 

@@ -1,11 +1,10 @@
 #include "parse.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 #include <vector>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "nearest.h"
 
@@ -44,9 +43,8 @@ bool is_flag(const OptionTable& table, const std::string& text) {
 }
 
 Result<void> refuse_extra(const Verb& verb, const OptionTable& table, const std::vector<std::string>& extras) {
-  const auto flag = std::find_if(extras.begin(), extras.end(), [](const std::string& text) {
-    return text.size() > 1 && text.starts_with('-');
-  });
+  const auto flag = std::find_if(extras.begin(), extras.end(),
+                                 [](const std::string& text) { return text.size() > 1 && text.starts_with('-'); });
   if (flag == extras.end()) {
     if (extras.empty()) return {};
     return usage_error(verb, fmt::format("unexpected argument '{}'", extras.front()));
@@ -92,7 +90,8 @@ Result<void> read_tokens(const Verb& verb, CLI::App& app, std::span<const std::s
     app.parse(reversed);
   } catch (const CLI::ParseError& error) {
     const std::string flag = arguments.empty() ? "" : arguments.back();
-    if (flag.starts_with('-') && app.get_option_no_throw(flag) != nullptr && app.get_option(flag)->get_items_expected() > 0) {
+    if (flag.starts_with('-') && app.get_option_no_throw(flag) != nullptr &&
+        app.get_option(flag)->get_items_expected() > 0) {
       return usage_error(verb, flag + " has no value");
     }
     return usage_error(verb, error.what());

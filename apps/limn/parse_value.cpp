@@ -3,11 +3,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace limn::cli {
 namespace {
@@ -126,13 +125,17 @@ Result<Vec4> parse_color(std::string_view text) {
     if (text == name) hex = value;
   }
   std::vector<int> digits;
-  for (const char c : hex.substr(hex.empty() ? 0 : 1)) digits.push_back(hex_digit(c));
+  for (const char c : hex.substr(hex.empty() ? 0 : 1))
+    digits.push_back(hex_digit(c));
   bool good = hex.starts_with('#') && (digits.size() == 3 || digits.size() == 6 || digits.size() == 8);
-  for (const int digit : digits) good = good && digit >= 0;
+  for (const int digit : digits)
+    good = good && digit >= 0;
   if (!good) return expected("a colour name, #rgb, #rrggbb, #rrggbbaa or transparent", text);
   if (digits.size() == 3) digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
   if (digits.size() == 6) digits.insert(digits.end(), {15, 15});
-  const auto channel = [&](std::size_t i) { return static_cast<float>(digits[2 * i] * 16 + digits[2 * i + 1]) / 255.0f; };
+  const auto channel = [&](std::size_t i) {
+    return static_cast<float>(digits[2 * i] * 16 + digits[2 * i + 1]) / 255.0f;
+  };
   return Vec4(channel(0), channel(1), channel(2), channel(3));
 }
 

@@ -1,14 +1,13 @@
 #include "session.h"
 
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <unistd.h>
 
-#include <cstdlib>
-#include <string>
-
-#include <nlohmann/json.hpp>
+#include "limn/base/file.h"
 
 #include "interrupt.h"
-#include "limn/base/file.h"
 
 namespace limn::cli {
 namespace {
@@ -37,12 +36,18 @@ void put_line(std::string line) {
 
 int exit_code(ErrorCode code) {
   switch (code) {
-    case ErrorCode::kInvalidArgument: return kExitUsage;
-    case ErrorCode::kUnreadable: return 3;
-    case ErrorCode::kUnwritable: return 3;
-    case ErrorCode::kUnsuitable: return 4;
-    case ErrorCode::kNoGraphics: return 6;
-    case ErrorCode::kCancelled: return 130;
+    case ErrorCode::kInvalidArgument:
+      return kExitUsage;
+    case ErrorCode::kUnreadable:
+      return 3;
+    case ErrorCode::kUnwritable:
+      return 3;
+    case ErrorCode::kUnsuitable:
+      return 4;
+    case ErrorCode::kNoGraphics:
+      return 6;
+    case ErrorCode::kCancelled:
+      return 130;
   }
   return kExitUsage;
 }

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
-
-#include <nlohmann/json_fwd.hpp>
 
 #include "limn/base/parallel.h"
 #include "limn/base/progress.h"
 #include "limn/base/result.h"
+
 #include "progress_bar.h"
 
 namespace limn::cli {

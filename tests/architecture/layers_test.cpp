@@ -45,16 +45,18 @@ bool is_graphics_header(const std::string& target) {
   return false;
 }
 
-/// What a public header may show its users: the standard library, and what limn's own types are made of.
-bool is_public_dependency(const std::string& target) {
-  const bool standard = target.find_first_of("/.") == std::string::npos;
-  return standard || target.starts_with("glm/") || target == "tl/expected.hpp";
-}
-
 struct Include {
   std::string target;
   bool quoted = false;
 };
+
+/// What a public header may show its users: the standard library, what limn's own types are made of, and each other.
+bool is_public_dependency(const Include& include, const std::set<std::string>& public_headers) {
+  const std::string& target = include.target;
+  if (target.starts_with("limn/")) return public_headers.contains(target.substr(5));
+  const bool standard = target.find_first_of("/.") == std::string::npos;
+  return standard || target.starts_with("glm/") || target == "tl/expected.hpp";
+}
 
 std::optional<Include> parse_include(std::string_view line) {
   const auto skip_blanks = [&line] {
@@ -82,7 +84,7 @@ std::string module_of(const std::string& target) {
 }
 
 /// Why a file of src/limn/MODULE must not include this; nothing when it may.
-std::optional<std::string> objection(const std::string& module, bool is_public_header, const Include& include) {
+std::optional<std::string> objection(const std::string& module, const Include& include) {
   const std::string& target = include.target;
   if (include.quoted && !target.starts_with("limn/")) return "\"" + target + "\" is not written from the root, limn/…";
   if (target.starts_with("limn/")) {
@@ -91,13 +93,25 @@ std::optional<std::string> objection(const std::string& module, bool is_public_h
     return module + " must not depend on " + other + " (" + target + ")";
   }
   if (!is_graphics_module(module) && is_graphics_header(target)) return "core must not include <" + target + ">";
-  if (is_public_header && !is_public_dependency(target)) return "a public header must not include <" + target + ">";
   return std::nullopt;
 }
 
-/// Reads every #include under ROOT/src/limn. Headers in a module's subfolders are not public.
+/// The list of ROOT/src/limn/public_headers.txt.
+std::set<std::string> public_headers(const fs::path& root) {
+  std::set<std::string> headers;
+  for (const std::string& line : lines_of(root / "src" / "limn" / "public_headers.txt")) {
+    if (!line.starts_with('#')) headers.insert(line);
+  }
+  return headers;
+}
+
+/// Reads every #include under ROOT/src/limn.
 Problems check_layers(const fs::path& root) {
+  const std::set<std::string> interface = public_headers(root);
   Problems problems;
+  for (const std::string& header : interface) {
+    if (!fs::exists(root / "src" / "limn" / header)) problems.push_back(problem(header, 1, "public, but not there"));
+  }
   for (const fs::path& file : files_of(root / "src" / "limn")) {
     if (!has_extension(file, {".h", ".cpp"})) continue;
     const std::string module = file.begin()->string();
@@ -105,13 +119,14 @@ Problems check_layers(const fs::path& root) {
       problems.push_back(problem(file, 1, "module " + module + " is not in the table of layers"));
       continue;
     }
-    const bool is_public_header = file.extension() == ".h" && std::distance(file.begin(), file.end()) == 2;
+    const bool is_public = interface.contains(file.generic_string());
     const std::vector<std::string> lines = lines_of(root / "src" / "limn" / file);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::optional<Include> include = parse_include(lines[i]);
       if (!include) continue;
-      if (const auto cause = objection(module, is_public_header, *include)) {
-        problems.push_back(problem(file, i + 1, *cause));
+      if (const auto cause = objection(module, *include)) problems.push_back(problem(file, i + 1, *cause));
+      if (is_public && !is_public_dependency(*include, interface)) {
+        problems.push_back(problem(file, i + 1, "a public header must not show its users " + include->target));
       }
     }
   }
@@ -136,14 +151,20 @@ TEST(Layers, OfTheTableHaveNoCycle) {
 
 TEST(Layers, AcceptWhatTheTableAllows) {
   const TempFolder folder;
+  folder.write("src/limn/public_headers.txt", "# a comment\nbase/vec.h\nmesh/good.h\n");
+  folder.write("src/limn/base/vec.h", "");
   folder.write("src/limn/mesh/good.h", "#include <vector>\n#include <glm/vec3.hpp>\n#include \"limn/base/vec.h\"\n");
   folder.write("src/limn/mesh/good.cpp", "#include <tiny_gltf.h>\n#include \"limn/mesh/good.h\"\n");
+  folder.write("src/limn/mesh/own.h", "#include <tiny_gltf.h>\n");
   folder.write("src/limn/render/good.cpp", "#include <epoxy/gl.h>\n#include \"limn/refine/refine.h\"\n");
   EXPECT_EQ(check_layers(folder.path()), Problems{});
 }
 
 TEST(Layers, FindEverySeededViolation) {
   const TempFolder folder;
+  folder.write("src/limn/public_headers.txt", "mesh/heavy.h\nmesh/shows_own.h\nmesh/gone.h\n");
+  folder.write("src/limn/mesh/shows_own.h", "#include \"limn/mesh/own.h\"\n");
+  folder.write("src/limn/mesh/own.h", "");
   folder.write("src/limn/mesh/upward.h", "#pragma once\n#include \"limn/refine/refine.h\"\n");
   folder.write("src/limn/mesh/upward_in_brackets.cpp", "#  include <limn/silhouette/eye.h>\n");
   folder.write("src/limn/compare/draws.cpp", "#include <EGL/egl.h>\n");
@@ -151,7 +172,7 @@ TEST(Layers, FindEverySeededViolation) {
   folder.write("src/limn/mesh/heavy.h", "#include <tiny_gltf.h>\n#include <nlohmann/json.hpp>\n");
   folder.write("src/limn/mesh/relative.cpp", "#include \"../refine/refine.h\"\n");
   folder.write("src/limn/extra/unknown.cpp", "int x;\n");
-  EXPECT_EQ(check_layers(folder.path()).size(), 8u) << joined(check_layers(folder.path()));
+  EXPECT_EQ(check_layers(folder.path()).size(), 10u) << joined(check_layers(folder.path()));
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 #include <set>
 #include <string>
 #include <string_view>
-
-#include <fmt/format.h>
 
 #include "limn/mesh/formats/formats.h"
 
