@@ -5,6 +5,9 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <csignal>
+#include <initializer_list>
+
 namespace limn::cli {
 namespace {
 
