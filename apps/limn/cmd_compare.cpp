@@ -63,7 +63,7 @@ Result<Comparison> measure(Session& session, const CompareFlags& flags, const Lo
   CompareOptions options = flags.options;
   options.progress = session.progress();
   if (!flags.refined) return compare_meshes(candidate.mesh, reference, options);
-  const RefineOptions refining = refine_options(flags.levels, {});
+  const RefineOptions refining = refine_options(flags.levels, session.silent_progress());
   const Result<Refiner> refiner = Refiner::create(candidate.mesh, refining);
   if (!refiner) return tl::unexpected(refiner.error());
   const MeshForCamera seen = [&](const Camera& camera, int height_px) -> Result<Mesh> {

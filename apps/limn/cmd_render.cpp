@@ -56,7 +56,7 @@ Result<Scene> build_scene(Session& session, const RenderFlags& flags, const Mesh
     const RefineOptions options = refine_options(flags.levels, session.progress());
     const Result<Refiner> refiner = Refiner::create(mesh, options);
     if (!refiner) return tl::unexpected(refiner.error());
-    Result<Refinement> refined = refiner->refine(view_of(*camera, flags.size.height), options.levels, options.blend);
+    Result<Refinement> refined = refiner->refine(view_of(*camera, flags.size.height), options.levels);
     if (!refined) return tl::unexpected(refined.error());
     if (flags.level_lines) append_level_lines(*refiner, *refined, flags.levels.max_level, flags.refined, scene.lines);
     if (flags.refined) scene.mesh = std::move(refined->mesh);

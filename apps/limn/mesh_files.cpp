@@ -134,9 +134,12 @@ std::string_view format_name(MeshFormat format) {
 }
 
 std::string counted(std::size_t count, std::string_view noun) {
-  std::string digits = fmt::format("{}", count);
-  for (std::size_t i = 3; i < digits.size(); i += 4)
-    digits.insert(digits.size() - i, ",");
+  const std::string plain = fmt::format("{}", count);
+  std::string digits;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    if (i > 0 && (plain.size() - i) % 3 == 0) digits += ',';
+    digits += plain[i];
+  }
   if (count == 1) return fmt::format("{} {}", digits, noun);
   if (noun.ends_with("vertex")) return fmt::format("{} {}vertices", digits, noun.substr(0, noun.size() - 6));
   return fmt::format("{} {}s", digits, noun);

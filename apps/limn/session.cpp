@@ -85,6 +85,10 @@ Progress Session::progress() {
   };
 }
 
+Progress Session::silent_progress() const {
+  return [](std::string_view, double) { return stop_signal() == 0; };
+}
+
 Result<void> Session::check_stop() const {
   if (stop_signal() != 0) return fail(ErrorCode::kCancelled, "interrupted");
   return {};

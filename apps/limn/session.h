@@ -44,6 +44,8 @@ class Session {
 
   /// Draws the bar, and asks the work to stop once a signal has arrived. Valid while the session lives.
   Progress progress();
+  /// As progress(), without the bar: for work that is one step of a longer one.
+  Progress silent_progress() const;
   /// Whether a signal has arrived: kCancelled. For the gaps between stages that report no progress.
   Result<void> check_stop() const;
 
