@@ -27,8 +27,8 @@ Mesh height_field(const GridSize& size, double half_x, double half_z, const Heig
 
 /// Hills everywhere, mountains where a slow noise is high.
 Height terrain_height(double x, double z, std::uint64_t seed) {
-  const FieldSample hills = octave_noise(DVec3(x, 0.37, z), seed, {6, 1.8, 0.09, 2.03, 0.42});
-  const FieldSample ridges = ridged_noise(DVec3(x, 0.61, z), seed + 1000, {6, 2.3, 0.34, 2.07, 0.38});
+  const FieldSample hills = octave_noise(DVec3(x, 0.37, z), seed, {6, 1.8, 0.08, 2.03, 0.42});
+  const FieldSample ridges = ridged_noise(DVec3(x, 0.61, z), seed + 1000, {5, 2.2, 0.30, 2.07, 0.36});
   const FieldSample where = gradient_noise(DVec3(x, 0.19, z) * 1.3, seed + 2000);
   // A smooth step from plains to mountains: s(w) = (1 + w' / sqrt(1 + w'^2)) / 2, w' = 3 w.
   const double w = 3 * where.value + 0.4, root = std::sqrt(1 + w * w);

@@ -75,7 +75,7 @@ FieldSample octave_noise(const DVec3& p, std::uint64_t seed, const OctaveOptions
 }
 
 FieldSample ridged_noise(const DVec3& p, std::uint64_t seed, const OctaveOptions& options) {
-  constexpr double kRounding = 0.08;  // where |noise| is below this, the ridge is round
+  constexpr double kRounding = 0.15;  // where |noise| is below this, the ridge is round
   FieldSample sum;
   double frequency = options.frequency, amplitude = options.amplitude;
   for (int octave = 0; octave < options.octaves; ++octave) {

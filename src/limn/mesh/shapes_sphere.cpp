@@ -5,10 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "limn/base/random.h"
+#include "limn/mesh/shapes_asteroid.h"
 #include "limn/mesh/shapes_builders.h"
 #include "limn/mesh/shapes_lattice.h"
-#include "limn/mesh/shapes_noise.h"
 
 namespace limn::procedural {
 namespace {
@@ -103,54 +102,6 @@ Mesh over_sphere(std::size_t faces, const PointOver& point) {
   return mesh;
 }
 
-struct Crater {
-  DVec3 center;
-  double radius;  ///< chord, on the unit sphere
-};
-
-std::vector<Crater> scatter_craters(std::uint64_t seed) {
-  constexpr int kCraters = 60;
-  constexpr double kLargest = 0.55;
-  Random random(seed);
-  std::vector<Crater> craters;
-  for (int i = 0; i < kCraters; ++i) {
-    const DVec3 center = glm::normalize(DVec3(random.direction()));
-    // Many small ones, few large ones: the number above a radius falls with its square.
-    craters.push_back({center, kLargest / std::sqrt(1 + 0.6 * (i + random.uniform()))});
-  }
-  return craters;
-}
-
-/// A bowl inside the radius and a rim around it, flat from √2 radii on; once continuously differentiable.
-FieldSample crater_depth(const Crater& crater, const DVec3& direction) {
-  const double inverse = 1 / (crater.radius * crater.radius);
-  const double q = (2 - 2 * glm::dot(direction, crater.center)) * inverse;  // squared distance in radii
-  double value = 0, slope = 0;
-  if (q < 1) {
-    value -= 0.36 * (1 - q) * (1 - q);
-    slope += 0.72 * (1 - q);
-  }
-  if (q > 0.4 && q < 2) {
-    const double s = (q - 0.4) / 1.6, hump = s * (1 - s);
-    value += 0.07 * 16 * hump * hump;
-    slope += 0.07 * 32 * hump * (1 - 2 * s) / 1.6;
-  }
-  return {value * crater.radius, slope * crater.radius * (-2 * inverse) * crater.center};
-}
-
-/// Radius of the asteroid in a direction, and its derivative (along the sphere or not: the caller projects).
-FieldSample asteroid_radius(const DVec3& direction, std::uint64_t seed, const std::vector<Crater>& craters) {
-  const FieldSample lumps = octave_noise(direction, seed, {3, 1.0, 0.36, 1.9, 0.42});
-  const FieldSample rough = octave_noise(direction, seed + 1000, {5, 5.0, 0.034, 2.03, 0.47});
-  FieldSample sum{0.72 + lumps.value + rough.value, lumps.gradient + rough.gradient};
-  for (const Crater& crater : craters) {
-    const FieldSample one = crater_depth(crater, direction);
-    sum.value += one.value;
-    sum.gradient += one.gradient;
-  }
-  return sum;
-}
-
 }  // namespace
 
 Mesh icosphere(std::size_t faces) {
@@ -161,13 +112,11 @@ Mesh icosphere(std::size_t faces) {
 }
 
 Mesh asteroid(std::size_t faces, std::uint64_t seed) {
-  const std::vector<Crater> craters = scatter_craters(seed);
+  const AsteroidSurface surface(seed);
   return over_sphere(faces, [&](const DVec3& direction, Vec3& position, Vec3& normal) {
-    const FieldSample radius = asteroid_radius(direction, seed, craters);
-    position = Vec3(direction * radius.value);
-    // The surface is radius(d) d: its normal is radius d minus the derivative along the sphere.
-    const DVec3 along = radius.gradient - direction * glm::dot(radius.gradient, direction);
-    normal = Vec3(glm::normalize(direction * radius.value - along));
+    const SurfacePoint point = surface.over(direction);
+    position = Vec3(point.position);
+    normal = Vec3(point.normal);
   });
 }
 
