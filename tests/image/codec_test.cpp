@@ -150,6 +150,62 @@ TEST(ReadPng, OtherFilesAndFoldersAreErrors) {
   EXPECT_FALSE(read_png(folder / "missing.png"));
 }
 
+/// A zlib stream that stores its data as it is; few decoders look at the checksum behind it, and none here.
+std::string stored(const std::string& data) {
+  const auto length = static_cast<unsigned>(data.size());
+  std::string stream("\x78\x01\x01", 3);
+  for (const unsigned value : {length, ~length}) {
+    stream.push_back(static_cast<char>(value & 0xffu));
+    stream.push_back(static_cast<char>(value >> 8 & 0xffu));
+  }
+  return stream + data + std::string(4, '\0');
+}
+
+std::string png_of_kind(std::uint32_t width, char depth, char color_type, const std::string& rows,
+                        const std::string& extra_chunk = {}) {
+  const std::string header = big_endian(width) + big_endian(1) + depth + color_type + std::string(3, '\0');
+  return std::string("\x89PNG\r\n\x1a\n", 8) + chunk("IHDR", header) + extra_chunk + chunk("IDAT", stored(rows)) +
+         chunk("IEND", "");
+}
+
+void expect_pixels(const std::string& file, const std::vector<std::uint8_t>& rgba) {
+  const auto image = decode_image(as_bytes(file), "kind.png");
+  ASSERT_TRUE(image) << format_error(image.error());
+  EXPECT_EQ(image->rgba, rgba);
+}
+
+TEST(DecodeImage, EveryKindOfPngBecomesEightBitRgba) {
+  const std::string no_filter(1, '\0');
+  expect_pixels(png_of_kind(2, 16, 0, no_filter + std::string("\x80\x00\xff\xff", 4)),
+                {128, 128, 128, 255, 255, 255, 255, 255});
+  expect_pixels(png_of_kind(3, 1, 0, no_filter + "\xa0"), {255, 255, 255, 255, 0, 0, 0, 255, 255, 255, 255, 255});
+  expect_pixels(png_of_kind(1, 8, 2, no_filter + "\x01\x02\x03"), {1, 2, 3, 255});
+  expect_pixels(png_of_kind(1, 8, 4, no_filter + "\x07\x09"), {7, 7, 7, 9});
+  expect_pixels(png_of_kind(2, 8, 3, no_filter + std::string("\x01\x00", 2), chunk("PLTE", "\x0a\x0b\x0c\x14\x15\x16")),
+                {20, 21, 22, 255, 10, 11, 12, 255});
+}
+
+TEST(DecodeImage, ReadsAJpegNearlyAsItWas) {
+  Image image(16, 24);
+  for (int y = 0; y < 24; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      const std::uint8_t color[4] = {static_cast<std::uint8_t>(10 * x), static_cast<std::uint8_t>(9 * y), 60, 255};
+      std::memcpy(image.pixel(x, y), color, 4);
+    }
+  }
+  std::string file;
+  const auto append = [](void* context, void* data, int size) {
+    static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  };
+  ASSERT_NE(stbi_write_jpg_to_func(append, &file, 16, 24, 4, image.rgba.data(), 95), 0);
+  const auto read = decode_image(as_bytes(file), "a.jpg");
+  ASSERT_TRUE(read) << format_error(read.error());
+  EXPECT_LT(compare_images(*read, image, 24).failing_share, 0.01);
+  for (std::size_t length = 0; length < 200; ++length) {
+    EXPECT_FALSE(decode_image(as_bytes(file.substr(0, length)), "cut.jpg")) << length;
+  }
+}
+
 TEST(DecodeImage, AJpegHeaderAloneIsAnError) {
   EXPECT_FALSE(decode_image(as_bytes(std::string("\xff\xd8\xff\xe0\0\x10JFIF", 10)), "a.jpg"));
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <epoxy/gl.h>
 #include <glm/matrix.hpp>
+#include <new>
 #include <string>
 #include <type_traits>
 
@@ -158,7 +159,7 @@ Result<void> draw_segments(gl::Context& context, std::span<const Segment3> segme
 }  // namespace
 
 Result<Image> render(gl::Context& context, const Mesh& mesh, const Camera& camera, const RenderOptions& options,
-                     std::span<const Segment3> segments) {
+                     std::span<const Segment3> segments) try {
   if (auto checked = check(options); !checked) return tl::unexpected(checked.error());
   context.make_current();
   const auto targets = RenderTargets::create(options.width, options.height, options.samples);
@@ -173,6 +174,8 @@ Result<Image> render(gl::Context& context, const Mesh& mesh, const Camera& camer
       return tl::unexpected(drawn.error());
   }
   return targets->resolve(context, options.background);
+} catch (const std::bad_alloc&) {
+  return fail(ErrorCode::kNoGraphics, "not enough memory for the picture or the mesh", "draw a smaller one");
 }
 
 }  // namespace limn
