@@ -1,5 +1,6 @@
 #include <cstring>
 #include <gtest/gtest.h>
+#include <stb/stb_image_write.h>
 #include <string>
 
 #include "limn/base/random.h"
