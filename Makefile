@@ -33,7 +33,9 @@ format:
 	@scripts/format
 
 lint: build
-	@ctest --preset $(PRESET) --parallel $(JOBS) -L lint
+	@scripts/format --check
+	@scripts/tidy $(BUILD)
+	@echo "lint: nothing found"
 
 models:
 	@scripts/models
