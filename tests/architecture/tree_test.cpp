@@ -58,7 +58,8 @@ fs::path linked_file(const fs::path& document, std::string target) {
 
 void check_links_of_line(const fs::path& root, const fs::path& file, std::size_t number, const std::string& line,
                          Problems& problems) {
-  static const std::regex markdown_link(R"(\]\(([^)\s]+)[^)]*\))");
+  // A target has a dot or a slash; brackets without one are a formula.
+  static const std::regex markdown_link(R"(\]\(([^)\s]*[./][^)\s]*)[^)]*\))");
   static const std::regex html_source(R"re((?:src|href)="([^"]+)")re");
   for (const std::regex* pattern : {&markdown_link, &html_source}) {
     for (std::sregex_iterator it(line.begin(), line.end(), *pattern), end; it != end; ++it) {
