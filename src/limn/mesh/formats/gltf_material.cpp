@@ -1,0 +1,75 @@
+#include "limn/mesh/formats/gltf_material.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+#include "limn/mesh/formats/picture_bytes.h"
+
+namespace limn::formats::gltf {
+namespace {
+
+float unit_interval(const Field& field, double otherwise) {
+  return static_cast<float>(std::clamp(field.number_or(otherwise), 0.0, 1.0));
+}
+
+/// Copies the picture of baseColorTexture into the material.
+void read_picture(Document& document, const Field& texture_info, Material& material, std::set<std::size_t>& seen,
+                  PictureBudget& budget) {
+  const std::size_t texture = texture_info["index"].index_into(document["textures"]);
+  if (texture_info["texCoord"].index_or(0) != 0 ||
+      texture_info["extensions"]["KHR_texture_transform"]["texCoord"].index_or(0) != 0) {
+    document.note(fmt::format("{} left out: it uses other texture coordinates than TEXCOORD_0", texture_info.path()));
+    return;
+  }
+  if (texture_info["extensions"]["KHR_texture_transform"]) document.note("texture transforms left out");
+  const Field source = document["textures"].at(texture)["source"];
+  if (!source) {
+    document.note(fmt::format("{} left out: it has no PNG or JPEG source", texture_info.path()));
+    return;
+  }
+  const std::size_t image = source.index_into(document["images"]);
+  const Picture picture = document.picture(image);
+  if (!seen.insert(image).second && !budget.take_copy(picture.bytes.size())) {
+    document.note(fmt::format("{} left out: its picture is used too many times", texture_info.path()));
+    return;
+  }
+  material.base_color_image.assign(picture.bytes.begin(), picture.bytes.end());
+  material.base_color_image_mime = picture.mime;
+}
+
+}  // namespace
+
+Material default_material() {
+  Material material;
+  material.base_color = Vec4(1.0f);
+  material.metallic = 1.0f;
+  material.roughness = 1.0f;
+  return material;
+}
+
+std::vector<Material> read_materials(Document& document) {
+  std::vector<Material> materials;
+  std::set<std::size_t> seen;
+  PictureBudget budget;
+  const Field list = document["materials"];
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Field field = list.at(i);
+    const Field pbr = field["pbrMetallicRoughness"];
+    Material material = default_material();
+    material.name = field["name"].string_or("");
+    if (const auto color = pbr["baseColorFactor"].numbers<4>()) {
+      for (int c = 0; c < 4; ++c) {
+        material.base_color[c] = static_cast<float>(std::clamp((*color)[static_cast<std::size_t>(c)], 0.0, 1.0));
+      }
+    }
+    material.metallic = unit_interval(pbr["metallicFactor"], 1.0);
+    material.roughness = unit_interval(pbr["roughnessFactor"], 1.0);
+    material.double_sided = field["doubleSided"].boolean_or(false);
+    if (const Field texture = pbr["baseColorTexture"]) read_picture(document, texture, material, seen, budget);
+    materials.push_back(std::move(material));
+  }
+  return materials;
+}
+
+}  // namespace limn::formats::gltf

@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "limn/mesh/formats/base64.h"
+#include "limn/mesh/formats/formats.h"
+
+namespace limn::formats {
+namespace {
+
+// Keys keep the order they are written in: the same mesh gives the same bytes.
+using Json = nlohmann::ordered_json;
+
+enum Target { kNone = 0, kVertices = 34962, kIndices = 34963 };
+enum ComponentType { kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
+
+void append_word(std::string& bytes, std::uint32_t word) {
+  for (int k = 0; k < 4; ++k)
+    bytes += static_cast<char>(word >> (8 * k) & 255u);
+}
+
+void append_float(std::string& bytes, float value) {
+  append_word(bytes, std::bit_cast<std::uint32_t>(value));
+}
+
+/// glTF asks for normals of unit length; those that are keep their bits.
+Vec3 unit_normal(const Vec3& n) {
+  const DVec3 d(n);
+  const double length = std::sqrt(glm::dot(d, d));
+  if (std::abs(length - 1.0) < 1e-4) return n;
+  return length > 0.0 && std::isfinite(length) ? Vec3(d / length) : Vec3(0.0f, 0.0f, 1.0f);
+}
+
+float unit_interval(float value) {
+  return value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+}
+
+/// The binary data and the JSON that describes it, grown together.
+class Builder {
+ public:
+  explicit Builder(const Mesh& mesh) : mesh_(mesh), vertices_(one_value_per_vertex(mesh)) {}
+
+  void build();
+  const Json& json() const { return json_; }
+  Json& json() { return json_; }
+  const std::string& data() const { return data_; }
+
+ private:
+  std::size_t begin_view() const { return data_.size(); }
+  std::size_t end_view(std::size_t begin, Target target);
+  std::size_t add_accessor(std::size_t view, ComponentType type, std::size_t count, const char* shape);
+  template <class Vector, class Change>
+  std::size_t add_attribute(const std::vector<Vector>& values, const char* shape, const Change& change);
+  std::size_t add_positions();
+  std::size_t add_indices(const std::vector<std::uint32_t>& faces);
+  Json add_primitives();
+  void add_materials();
+  Json picture(const Material& material);
+  std::vector<std::vector<std::uint32_t>> faces_by_material() const;
+
+  const Mesh& mesh_;
+  VertexMesh vertices_;
+  std::vector<std::pair<const Material*, std::size_t>> textures_;
+  Json json_;
+  std::string data_;
+};
+
+std::size_t Builder::end_view(std::size_t begin, Target target) {
+  Json view = {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", data_.size() - begin}};
+  if (target != kNone) view["target"] = static_cast<int>(target);
+  data_.resize((data_.size() + 3) / 4 * 4, '\0');
+  json_["bufferViews"].push_back(std::move(view));
+  return json_["bufferViews"].size() - 1;
+}
+
+std::size_t Builder::add_accessor(std::size_t view, ComponentType type, std::size_t count, const char* shape) {
+  json_["accessors"].push_back(
+      {{"bufferView", view}, {"componentType", static_cast<int>(type)}, {"count", count}, {"type", shape}});
+  return json_["accessors"].size() - 1;
+}
+
+template <class Vector, class Change>
+std::size_t Builder::add_attribute(const std::vector<Vector>& values, const char* shape, const Change& change) {
+  const std::size_t begin = begin_view();
+  for (const Vector& value : values) {
+    const Vector changed = change(value);
+    for (int c = 0; c < Vector::length(); ++c)
+      append_float(data_, changed[c]);
+  }
+  return add_accessor(end_view(begin, kVertices), kFloat, values.size(), shape);
+}
+
+std::size_t Builder::add_positions() {
+  const std::size_t accessor = add_attribute(vertices_.positions, "VEC3", [](const Vec3& p) { return p; });
+  const Bounds bounds = bounds_of(vertices_.positions);
+  json_["accessors"][accessor]["min"] = {bounds.low.x, bounds.low.y, bounds.low.z};
+  json_["accessors"][accessor]["max"] = {bounds.high.x, bounds.high.y, bounds.high.z};
+  return accessor;
+}
+
+std::size_t Builder::add_indices(const std::vector<std::uint32_t>& faces) {
+  // The largest value of a type is kept for restarting strips and must not be an index.
+  const bool small = vertices_.positions.size() <= std::numeric_limits<std::uint16_t>::max();
+  const std::size_t begin = begin_view();
+  for (const std::uint32_t f : faces) {
+    for (const VertexId v : vertices_.faces[f]) {
+      if (small) {
+        data_ += static_cast<char>(v & 255u);
+        data_ += static_cast<char>(v >> 8);
+      } else {
+        append_word(data_, v);
+      }
+    }
+  }
+  return add_accessor(end_view(begin, kIndices), small ? kUnsignedShort : kUnsignedInt, 3 * faces.size(), "SCALAR");
+}
+
+std::vector<std::vector<std::uint32_t>> Builder::faces_by_material() const {
+  std::vector<std::vector<std::uint32_t>> groups(std::max<std::size_t>(mesh_.materials.size(), 1));
+  for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+    const std::size_t material = mesh_.face_materials.empty() || mesh_.materials.empty() ? 0 : mesh_.face_materials[f];
+    groups[material].push_back(static_cast<std::uint32_t>(f));
+  }
+  return groups;
+}
+
+Json Builder::add_primitives() {
+  Json attributes = {{"POSITION", add_positions()}};
+  if (!vertices_.normals.empty()) attributes["NORMAL"] = add_attribute(vertices_.normals, "VEC3", unit_normal);
+  if (!vertices_.uvs.empty()) {
+    attributes["TEXCOORD_0"] =
+        add_attribute(vertices_.uvs, "VEC2", [](const Vec2& uv) { return Vec2(uv.x, 1.0f - uv.y); });
+  }
+  if (!vertices_.colors.empty()) {
+    attributes["COLOR_0"] = add_attribute(vertices_.colors, "VEC4", [](const Vec4& c) {
+      return Vec4(unit_interval(c.r), unit_interval(c.g), unit_interval(c.b), unit_interval(c.a));
+    });
+  }
+  Json primitives = Json::array();
+  const std::vector<std::vector<std::uint32_t>> groups = faces_by_material();
+  for (std::size_t material = 0; material < groups.size(); ++material) {
+    if (groups[material].empty()) continue;
+    Json primitive = {{"attributes", attributes}, {"indices", add_indices(groups[material])}};
+    if (!mesh_.materials.empty()) primitive["material"] = material;
+    primitives.push_back(std::move(primitive));
+  }
+  return primitives;
+}
+
+/// A texture, with the image and view it needs; one for all materials that hold the same picture.
+Json Builder::picture(const Material& material) {
+  for (const auto& [earlier, texture] : textures_) {
+    if (earlier->base_color_image == material.base_color_image) return {{"index", texture}};
+  }
+  const std::size_t begin = begin_view();
+  data_.append(reinterpret_cast<const char*>(material.base_color_image.data()), material.base_color_image.size());
+  json_["images"].push_back({{"bufferView", end_view(begin, kNone)}, {"mimeType", material.base_color_image_mime}});
+  json_["textures"].push_back({{"source", json_["images"].size() - 1}});
+  textures_.emplace_back(&material, json_["textures"].size() - 1);
+  return {{"index", textures_.back().second}};
+}
+
+void Builder::add_materials() {
+  for (const Material& material : mesh_.materials) {
+    Json entry;
+    if (!material.name.empty()) entry["name"] = material.name;
+    const Vec4& color = material.base_color;
+    Json pbr = {{"baseColorFactor",
+                 {unit_interval(color.r), unit_interval(color.g), unit_interval(color.b), unit_interval(color.a)}}};
+    // A texture without coordinates to look it up with would make the file invalid.
+    if (!material.base_color_image.empty() && !vertices_.uvs.empty()) pbr["baseColorTexture"] = picture(material);
+    pbr["metallicFactor"] = unit_interval(material.metallic);
+    pbr["roughnessFactor"] = unit_interval(material.roughness);
+    entry["pbrMetallicRoughness"] = std::move(pbr);
+    if (color.a < 1.0f) entry["alphaMode"] = "BLEND";
+    if (material.double_sided) entry["doubleSided"] = true;
+    json_["materials"].push_back(std::move(entry));
+  }
+}
+
+void Builder::build() {
+  json_["asset"] = {{"version", "2.0"}, {"generator", "limn " LIMN_VERSION}};
+  json_["scene"] = 0;
+  json_["scenes"] = Json::array({Json::object()});
+  // glTF has no empty mesh: without faces there is a scene with nothing in it.
+  if (mesh_.faces.empty()) return;
+  json_["scenes"][0]["nodes"] = {0};
+  json_["nodes"] = Json::array({{{"mesh", 0}}});
+  json_["meshes"] = Json::array({Json::object()});
+  json_["meshes"][0]["primitives"] = add_primitives();
+  add_materials();
+}
+
+std::string dump(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The chunks, each padded to four bytes, behind the header; empty when their lengths do not fit its 32 bits.
+std::string pack_glb(std::string json, const std::string& data) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::uint64_t total = 12 + 8 + std::uint64_t{json.size()} + (data.empty() ? 0 : 8 + std::uint64_t{data.size()});
+  if (total > std::numeric_limits<std::uint32_t>::max()) return {};
+  std::string bytes = "glTF";
+  append_word(bytes, 2);
+  append_word(bytes, static_cast<std::uint32_t>(total));
+  append_word(bytes, static_cast<std::uint32_t>(json.size()));
+  bytes += "JSON" + json;
+  if (data.empty()) return bytes;
+  append_word(bytes, static_cast<std::uint32_t>(data.size()));
+  bytes += std::string("BIN\0", 4);
+  bytes += data;
+  return bytes;
+}
+
+Result<void> check(const Mesh& mesh, const std::filesystem::path& path) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (is_finite(mesh.positions[i])) continue;
+    return fail_at(ErrorCode::kInvalidArgument, path.string(), fmt::format("vertex {}", i),
+                   "a coordinate is not finite");
+  }
+  for (std::size_t f = 0; f < mesh.face_materials.size() && !mesh.materials.empty(); ++f) {
+    if (mesh.face_materials[f] < mesh.materials.size()) continue;
+    return fail_at(ErrorCode::kInvalidArgument, path.string(), fmt::format("face {}", f),
+                   fmt::format("names material {}, but there are {}", mesh.face_materials[f], mesh.materials.size()));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<OutputFile>> write_gltf(const Mesh& mesh, const std::filesystem::path& path, bool binary) {
+  if (const Result<void> checked = check(mesh, path); !checked) return tl::unexpected(checked.error());
+  Builder builder(mesh);
+  builder.build();
+  std::vector<OutputFile> files(1);
+  files[0].path = path;
+  if (!builder.data().empty()) {
+    Json buffer = {{"byteLength", builder.data().size()}};
+    if (!binary) {
+      const auto bytes = std::as_bytes(std::span(builder.data().data(), builder.data().size()));
+      buffer["uri"] = "data:application/octet-stream;base64," + encode_base64(bytes);
+    }
+    builder.json()["buffers"] = Json::array({std::move(buffer)});
+  }
+  files[0].bytes = binary ? pack_glb(dump(builder.json(), -1), builder.data()) : dump(builder.json(), 1) + "\n";
+  if (!files[0].bytes.empty()) return files;
+  return fail_at(ErrorCode::kInvalidArgument, path.string(), {}, "a GLB cannot be larger than 4 GiB",
+                 "write .gltf or PLY instead");
+}
+
+}  // namespace limn::formats
