@@ -268,7 +268,8 @@ Mesh random_mesh(bool attributes) {
     mesh.positions.emplace_back(random.uniform(-1e6, 1e6), random.uniform(-1, 1), random.uniform(-1e-6, 1e-6));
     if (attributes) {
       mesh.normals.values.push_back(random.direction());
-      mesh.uvs.values.emplace_back(static_cast<float>(random.below(257)) / 256.0f, static_cast<float>(random.below(257)) / 256.0f);
+      mesh.uvs.values.emplace_back(static_cast<float>(random.below(257)) / 256.0f,
+                                   static_cast<float>(random.below(257)) / 256.0f);
       mesh.colors.values.emplace_back(random.uniform(), random.uniform(), random.uniform(), 1.0f);
     }
   }

@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint32_t kGlbMagic = 0x46546c67u;   // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4e4f534au;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004e4942u;   // "BIN\0"
-constexpr char kFileMark = '/';  // before the keys of files, so that none is a data URI's place
 constexpr std::string_view kMeshopt = "EXT_meshopt_compression";
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 
@@ -79,6 +78,7 @@ std::string_view why_outside(std::string_view reference) {
   return {};
 }
 
+/// Checks a reference by its looks and gives it decoded.
 std::string checked_reference(const Field& uri) {
   std::string reference = percent_decoded(uri.string());
   const std::string_view reason = why_outside(reference);
@@ -242,7 +242,9 @@ void Document::check_extensions() {
 std::span<const std::byte> Document::load(const Field& uri) {
   const std::string text = uri.string();
   const bool data = is_data_uri(text);
-  const std::string key = data ? uri.path() : std::string(1, kFileMark) + checked_reference(uri);
+  if (!data) checked_reference(uri);
+  // A file's key begins as no data URI's place does.
+  const std::string key = data ? uri.path() : fmt::format("/{}", text);
   auto entry = loaded_.find(key);
   if (entry == loaded_.end()) {
     std::vector<std::byte> bytes;
@@ -251,10 +253,10 @@ std::span<const std::byte> Document::load(const Field& uri) {
     } else {
       if (source_.folder.empty()) {
         refuse(uri.path(),
-               fmt::format("refers to the file \"{}\", but the model was not read from a folder", shown(key.substr(1))),
+               fmt::format("refers to the file \"{}\", but the model was not read from a folder", shown(text)),
                "read the model from a file, or use a GLB");
       }
-      Result<std::vector<std::byte>> read = read_reference(source_.folder, key.substr(1));
+      Result<std::vector<std::byte>> read = read_reference(source_.folder, text);
       if (!read) refuse(uri.path(), read.error().message, read.error().remedy);
       bytes = *std::move(read);
       bytes_ += bytes.size();
@@ -392,8 +394,11 @@ Picture Document::picture(std::size_t index) {
   if (uri) {
     if (!is_data_uri(uri.string()) && !source_.folder.empty()) {
       std::error_code ignored;
-      const std::filesystem::path file = source_.folder / checked_reference(uri);
-      if (std::filesystem::symlink_status(file, ignored).type() == std::filesystem::file_type::not_found) {
+      const auto missing = [&](const std::string& name) {
+        return std::filesystem::symlink_status(source_.folder / name, ignored).type() ==
+               std::filesystem::file_type::not_found;
+      };
+      if (missing(checked_reference(uri)) && missing(uri.string())) {
         note(fmt::format("picture \"{}\" left out: no such file", shown(uri.string())));
         return picture;
       }
