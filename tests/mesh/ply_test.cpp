@@ -167,14 +167,14 @@ const std::string kFourVertices =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
 const std::string kFourPoints = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
-TEST(Ply, TurnsPolygonsIntoFansAndCountsThem) {
+TEST(Ply, CutsPolygonsIntoTrianglesAndCountsThem) {
   const ImportedMesh imported =
       must_read(kFourVertices + "element face 3\nproperty list uchar int vertex_indices\nend_header\n" + kFourPoints +
                     "4 0 1 2 3\n2 0 1\n3 3 2 1\n",
                 MeshFormat::kPly);
   EXPECT_EQ(imported.mesh.faces, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {3, 2, 1}}));
   ASSERT_EQ(imported.notes.size(), 2u);
-  EXPECT_EQ(imported.notes[0], "1 polygons triangulated as fans: 2 triangles");
+  EXPECT_EQ(imported.notes[0], "1 polygons cut into 2 triangles");
   EXPECT_EQ(imported.notes[1], "1 faces of fewer than three corners left out");
 }
 

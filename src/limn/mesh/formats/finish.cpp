@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "limn/base/parallel.h"
+#include "limn/mesh/normals.h"
 
 namespace limn::formats {
 namespace {
@@ -133,22 +134,13 @@ NormalKind normalize(Vec3& normal) {
   return NormalKind::kScaled;
 }
 
-/// The unit normal of a face's winding; (0,0,0) without area.
-Vec3 winding_normal(const Mesh& mesh, const Triangle& face) {
-  const DVec3 a(mesh.positions[face[0]]);
-  const DVec3 u = DVec3(mesh.positions[face[1]]) - a;
-  const DVec3 v = DVec3(mesh.positions[face[2]]) - a;
-  const DVec3 n(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
-  const double length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-  return length > 0.0 && std::isfinite(length) ? Vec3(n / length) : Vec3(0.0f);
-}
-
 /// Normals of no direction take the normal of the first face with area that uses them, or z where there is none.
 void replace_missing_normals(Mesh& mesh) {
+  const std::vector<Vec3> of_faces = face_normals(mesh);
   for (FaceId face = 0; face < mesh.faces.size(); ++face) {
     for (int corner = 0; corner < 3; ++corner) {
       Vec3& normal = mesh.normals.values[mesh.corner_index(mesh.normals, face, corner)];
-      if (normal == Vec3(0.0f)) normal = winding_normal(mesh, mesh.faces[face]);
+      if (normal == Vec3(0.0f)) normal = of_faces[face];
     }
   }
   std::replace(mesh.normals.values.begin(), mesh.normals.values.end(), Vec3(0.0f), Vec3(0.0f, 0.0f, 1.0f));

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <fmt/format.h>
 #include <optional>
 
 #include "limn/mesh/formats/color.h"
 #include "limn/mesh/formats/formats.h"
+#include "limn/mesh/formats/polygon.h"
 #include "limn/mesh/formats/text.h"
 
 namespace limn::formats {
@@ -165,7 +167,7 @@ class OffReader {
       }
       if (const Result<void> done = read_corners(face, corners); !done) return done;
       face_colors_ += !text_.line_done();
-      add_fan(corners);
+      add_polygon(corners);
     }
     if (next_line()) {
       result_.notes.push_back(fmt::format("{} bytes behind the last face left out", text_.bytes_left()));
@@ -190,15 +192,19 @@ class OffReader {
     return {};
   }
 
-  void add_fan(const std::vector<VertexId>& corners) {
+  void add_polygon(const std::vector<VertexId>& corners) {
+    if (corners.size() == 3) result_.mesh.faces.push_back({corners[0], corners[1], corners[2]});
     if (corners.size() < 3) ++too_small_;
-    if (corners.size() > 3) {
-      ++polygons_;
-      polygon_triangles_ += corners.size() - 2;
-    }
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-      result_.mesh.faces.push_back({corners[0], corners[i - 1], corners[i]});
-    }
+    if (corners.size() <= 3) return;
+    points_.clear();
+    triangles_.clear();
+    for (const VertexId corner : corners)
+      points_.push_back(result_.mesh.positions[corner]);
+    triangulate(points_, triangles_);
+    ++polygons_;
+    polygon_triangles_ += triangles_.size();
+    for (const auto& [a, b, c] : triangles_)
+      result_.mesh.faces.push_back({corners[a], corners[b], corners[c]});
   }
 
   /// Bytes are sRGB, as in PLY; an alpha that was not written stays 1.
@@ -216,8 +222,7 @@ class OffReader {
 
   void add_notes() {
     std::vector<std::string>& notes = result_.notes;
-    if (polygons_ > 0)
-      notes.push_back(fmt::format("{} polygons triangulated as fans: {} triangles", polygons_, polygon_triangles_));
+    if (polygons_ > 0) notes.push_back(fmt::format("{} polygons cut into {} triangles", polygons_, polygon_triangles_));
     if (too_small_ > 0) notes.push_back(fmt::format("{} faces of fewer than three corners left out", too_small_));
     if (face_colors_ > 0) notes.push_back(fmt::format("colours of {} faces left out", face_colors_));
     if (extra_vertices_ > 0) notes.push_back(fmt::format("further numbers of {} vertices left out", extra_vertices_));
@@ -231,6 +236,8 @@ class OffReader {
   std::uint64_t face_count_ = 0;
   std::vector<bool> opaque_;  ///< one a vertex with a colour: no alpha was written
   bool byte_colors_ = false;
+  std::vector<Vec3> points_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::uint64_t polygons_ = 0;
   std::uint64_t polygon_triangles_ = 0;
   std::uint64_t too_small_ = 0;

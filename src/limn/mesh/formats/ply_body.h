@@ -27,7 +27,7 @@ struct PlyReading {
 Result<void> read_ply_vertices(PlyReading& reading, const PlyElement& element, PlyBinaryCursor& cursor);
 Result<void> read_ply_vertices(PlyReading& reading, const PlyElement& element, PlyTextCursor& cursor);
 
-/// Reads the face element; polygons become fans. Every index is checked.
+/// Reads the face element; polygons are cut into triangles. Every index is checked.
 Result<void> read_ply_faces(PlyReading& reading, const PlyElement& element, PlyBinaryCursor& cursor);
 Result<void> read_ply_faces(PlyReading& reading, const PlyElement& element, PlyTextCursor& cursor);
 

@@ -1,8 +1,10 @@
+#include <array>
 #include <atomic>
 #include <vector>
 
 #include "limn/base/parallel.h"
 #include "limn/mesh/formats/ply_body.h"
+#include "limn/mesh/formats/polygon.h"
 
 namespace limn::formats {
 namespace {
@@ -13,6 +15,14 @@ constexpr std::uint64_t kMostTriangles = 0xffffffffu / 3;
 struct FaceLayout {
   int indices = -1;
   int texcoords = -1;
+};
+
+/// One polygon while it is read; kept from face to face so that its memory is.
+struct PolygonBuffer {
+  std::vector<VertexId> corners;
+  std::vector<float> texcoords;
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 FaceLayout layout_of(const PlyElement& element) {
@@ -80,32 +90,43 @@ bool read_reals(Cursor& cursor, const PlyProperty& property, std::vector<float>&
   return true;
 }
 
-/// Adds a polygon as a fan about its first corner.
-void add_fan(PlyReading& reading, const std::vector<VertexId>& corners) {
-  if (corners.size() < 3) {
-    ++reading.too_small;
+/// Cuts a polygon into triangles of its corners; a fan where the vertices come after the faces.
+void cut(const PlyReading& reading, PolygonBuffer& polygon) {
+  const std::vector<VertexId>& corners = polygon.corners;
+  const std::vector<Vec3>& positions = reading.result.mesh.positions;
+  polygon.triangles.clear();
+  if (corners.size() < 3) return;
+  if (corners.size() > 3 && positions.size() == reading.vertex_count) {
+    polygon.points.clear();
+    for (const VertexId corner : corners)
+      polygon.points.push_back(positions[corner]);
+    triangulate(polygon.points, polygon.triangles);
     return;
   }
-  if (corners.size() > 3) {
+  for (std::uint32_t i = 2; i < corners.size(); ++i)
+    polygon.triangles.push_back({0, i - 1, i});
+}
+
+void add_polygon(PlyReading& reading, const PolygonBuffer& polygon) {
+  if (polygon.corners.size() < 3) ++reading.too_small;
+  if (polygon.corners.size() > 3) {
     ++reading.polygons;
-    reading.polygon_triangles += corners.size() - 2;
+    reading.polygon_triangles += polygon.triangles.size();
   }
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    reading.result.mesh.faces.push_back({corners[0], corners[i - 1], corners[i]});
+  for (const auto& [a, b, c] : polygon.triangles) {
+    reading.result.mesh.faces.push_back({polygon.corners[a], polygon.corners[b], polygon.corners[c]});
   }
 }
 
 /// Adds the texture coordinates of a polygon's corners, two numbers each; zeros where the list does not fit.
-void add_fan_texcoords(PlyReading& reading, std::size_t corners, const std::vector<float>& texcoords) {
-  if (corners < 3) return;
-  const bool fits = texcoords.size() == 2 * corners;
-  if (!fits) ++reading.wrong_texcoords;
-  const auto at = [&](std::size_t corner) {
-    return fits ? Vec2(texcoords[2 * corner], texcoords[2 * corner + 1]) : Vec2(0.0f);
-  };
-  for (std::size_t i = 2; i < corners; ++i) {
-    for (const std::size_t corner : {std::size_t{0}, i - 1, i})
-      reading.result.mesh.uvs.values.push_back(at(corner));
+void add_texcoords(PlyReading& reading, const PolygonBuffer& polygon) {
+  const bool fits = polygon.texcoords.size() == 2 * polygon.corners.size();
+  reading.wrong_texcoords += !fits && !polygon.triangles.empty();
+  for (const auto& triangle : polygon.triangles) {
+    for (const std::size_t corner : triangle) {
+      const Vec2 uv = fits ? Vec2(polygon.texcoords[2 * corner], polygon.texcoords[2 * corner + 1]) : Vec2(0.0f);
+      reading.result.mesh.uvs.values.push_back(uv);
+    }
   }
 }
 
@@ -115,8 +136,7 @@ bool too_many(const PlyReading& reading) {
 
 template <class Cursor>
 Result<void> read_polygons(PlyReading& reading, const PlyElement& element, const FaceLayout& layout, Cursor& cursor) {
-  std::vector<VertexId> corners;
-  std::vector<float> texcoords;
+  PolygonBuffer polygon;
   if (layout.texcoords >= 0) reading.result.mesh.uvs = {};
   const std::uint64_t room = cursor.most_triangles(element.properties[static_cast<std::size_t>(layout.indices)]);
   reading.result.mesh.faces.reserve(static_cast<std::size_t>(std::min(element.count, room)));
@@ -126,16 +146,17 @@ Result<void> read_polygons(PlyReading& reading, const PlyElement& element, const
     for (std::size_t i = 0; good && i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       if (static_cast<int>(i) == layout.indices) {
-        good = read_indices(reading, cursor, property, false, corners);
+        good = read_indices(reading, cursor, property, false, polygon.corners);
       } else if (static_cast<int>(i) == layout.texcoords) {
-        good = read_reals(cursor, property, texcoords);
+        good = read_reals(cursor, property, polygon.texcoords);
       } else {
         good = skip_property(cursor, property);
       }
     }
     if (!good || !cursor.end_item()) return ply_failure(reading, "face", face, cursor);
-    add_fan(reading, corners);
-    if (layout.texcoords >= 0) add_fan_texcoords(reading, corners.size(), texcoords);
+    cut(reading, polygon);
+    add_polygon(reading, polygon);
+    if (layout.texcoords >= 0) add_texcoords(reading, polygon);
     if (too_many(reading))
       return ply_failure(reading, "more triangles than 32-bit indices can name, at face", face, cursor);
   }

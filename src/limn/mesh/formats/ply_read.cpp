@@ -94,8 +94,7 @@ Result<void> read_elements(PlyReading& reading, Cursor& cursor) {
 void add_notes(PlyReading& reading) {
   std::vector<std::string>& notes = reading.result.notes;
   if (reading.polygons > 0) {
-    notes.push_back(
-        fmt::format("{} polygons triangulated as fans: {} triangles", reading.polygons, reading.polygon_triangles));
+    notes.push_back(fmt::format("{} polygons cut into {} triangles", reading.polygons, reading.polygon_triangles));
   }
   if (reading.too_small > 0)
     notes.push_back(fmt::format("{} faces of fewer than three corners left out", reading.too_small));

@@ -1,21 +1,12 @@
-#include <cmath>
 #include <cstring>
 
 #include "limn/mesh/formats/formats.h"
 #include "limn/mesh/formats/stl_kind.h"
 #include "limn/mesh/formats/text.h"
+#include "limn/mesh/normals.h"
 
 namespace limn::formats {
 namespace {
-
-/// A facet's normal from its winding; (0,0,0), which readers take as "unknown", without area.
-Vec3 winding_normal(const Vec3 (&p)[3]) {
-  const DVec3 u = DVec3(p[1]) - DVec3(p[0]);
-  const DVec3 v = DVec3(p[2]) - DVec3(p[0]);
-  const DVec3 n(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
-  const double length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-  return length > 0.0 && std::isfinite(length) ? Vec3(n / length) : Vec3(0.0f);
-}
 
 void append_vector(std::string& text, const Vec3& v) {
   for (const float value : {v.x, v.y, v.z}) {
@@ -32,9 +23,11 @@ std::string binary_stl(const Mesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.faces.size());
   std::memcpy(bytes.data() + kStlHeaderSize - sizeof count, &count, sizeof count);
   char* at = bytes.data() + kStlHeaderSize;
-  for (const Triangle& face : mesh.faces) {
+  const std::vector<Vec3> normals = face_normals(mesh);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const Triangle& face = mesh.faces[i];
     const Vec3 corners[3] = {mesh.positions[face[0]], mesh.positions[face[1]], mesh.positions[face[2]]};
-    const Vec3 normal = winding_normal(corners);
+    const Vec3& normal = normals[i];
     std::memcpy(at, &normal, sizeof normal);
     std::memcpy(at + sizeof normal, corners, sizeof corners);
     at += kStlFacetSize;
@@ -46,14 +39,14 @@ std::string text_stl(const Mesh& mesh) {
   constexpr std::size_t kTypicalFacet = 230;
   std::string text = "solid mesh\n";
   text.reserve(mesh.faces.size() * kTypicalFacet);
-  for (const Triangle& face : mesh.faces) {
-    const Vec3 corners[3] = {mesh.positions[face[0]], mesh.positions[face[1]], mesh.positions[face[2]]};
+  const std::vector<Vec3> normals = face_normals(mesh);
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     text += "facet normal";
-    append_vector(text, winding_normal(corners));
+    append_vector(text, normals[i]);
     text += "\n outer loop\n";
-    for (const Vec3& corner : corners) {
+    for (const VertexId vertex : mesh.faces[i]) {
       text += "  vertex";
-      append_vector(text, corner);
+      append_vector(text, mesh.positions[vertex]);
       text += '\n';
     }
     text += " endloop\nendfacet\n";

@@ -4,30 +4,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <string_view>
+
+#include "limn/mesh/formats/parse_number.h"
 
 /// Reading and writing numbers as text, correctly rounded and independent of the locale.
 namespace limn::formats {
 
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
-
-/// The value of a token that from_chars calls out of range: 0 below the smallest number, infinity above the largest.
-template <class T>
-T out_of_range_value(std::string_view token) {
-  double wide = 0;
-  if constexpr (sizeof(T) < sizeof(double)) {
-    if (std::from_chars(token.data(), token.data() + token.size(), wide).ec == std::errc()) return static_cast<T>(wide);
-  }
-  // With an exponent its sign decides; without one, whether there is a digit other than 0 before the point.
-  const std::size_t exponent = token.find_first_of("eE");
-  const bool tiny = exponent != std::string_view::npos ? token.substr(exponent + 1).starts_with('-')
-                                                       : token.find_first_of("123456789") > token.find('.');
-  const T magnitude = tiny ? T(0) : std::numeric_limits<T>::infinity();
-  return token.front() == '-' ? -magnitude : magnitude;
 }
 
 /// Walks a text line by line, and a line number by number.
@@ -78,17 +64,12 @@ class TextLines {
   }
 
   /// Takes a number, correctly rounded; false, taking nothing, when the next token is none.
-  /// Beyond the type's range gives an infinity or a zero.
-  template <class T>
-  bool real(T& value) {
+  /// Beyond a float's range it gives an infinity or a zero.
+  bool real(float& value) {
     skip_blanks();
-    const char* const begin = at_ != line_end_ && *at_ == '+' ? at_ + 1 : at_;
-    const auto [stop, error] = std::from_chars(begin, line_end_, value);
-    if (error == std::errc::invalid_argument || (stop != line_end_ && !is_blank(*stop))) return false;
-    if (error == std::errc::result_out_of_range) {
-      value = out_of_range_value<T>({begin, static_cast<std::size_t>(stop - begin)});
-    }
-    at_ = stop;
+    const std::size_t used = parse_float({at_, static_cast<std::size_t>(line_end_ - at_)}, value);
+    if (used == 0 || (at_ + used != line_end_ && !is_blank(at_[used]))) return false;
+    at_ += used;
     return true;
   }
 
@@ -101,12 +82,11 @@ class TextLines {
       at_ = stop;
       return true;
     }
-    const char* const start = at_;
     double wide = 0;
-    if (!real(wide) || !(wide > -9e18 && wide < 9e18) || wide != static_cast<double>(static_cast<std::int64_t>(wide))) {
-      at_ = start;
-      return false;
-    }
+    const auto [wide_stop, wide_error] = std::from_chars(begin, line_end_, wide);
+    if (wide_error != std::errc() || (wide_stop != line_end_ && !is_blank(*wide_stop))) return false;
+    if (!(wide > -9e18 && wide < 9e18) || wide != static_cast<double>(static_cast<std::int64_t>(wide))) return false;
+    at_ = wide_stop;
     value = static_cast<std::int64_t>(wide);
     return true;
   }
