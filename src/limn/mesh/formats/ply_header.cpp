@@ -180,7 +180,10 @@ Result<PlyHeader> parse_ply_header(const Source& source) {
       header.carriage_returns = lines.carriage_returns();
       return header;
     }
-    if (const Complaint complaint = parse_line(words, header)) return bad_line(*complaint);
+    const Complaint complaint = parse_line(words, header);
+    const bool cut_short = lines.position() == source.bytes.size() && source.bytes.back() != std::byte{'\n'};
+    if (complaint && cut_short) break;
+    if (complaint) return bad_line(*complaint);
     has_format = has_format || words[0] == "format";
   }
   return bad_line("the file ends within the header, before 'end_header'", "get a complete copy of the file");

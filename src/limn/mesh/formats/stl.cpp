@@ -119,7 +119,9 @@ class TextStl {
     Vec3 point;
     if (!in_facet_) return complain("a vertex outside a facet");
     if (!text_.real(point.x) || !text_.real(point.y) || !text_.real(point.z)) {
-      return complain(fmt::format("a vertex of facet {} lacks three numbers", facets_));
+      const bool cut = text_.line_done() && text_.rest().empty();
+      return complain(cut ? fmt::format("truncated: the file ends in facet {}", facets_)
+                          : fmt::format("a vertex of facet {} lacks three numbers", facets_));
     }
     if (++corners_ > 3) return complain(fmt::format("facet {} has more than three vertices", facets_));
     result_.mesh.positions.push_back(point);
