@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <fmt/format.h>
 #include <optional>
 
@@ -211,6 +212,7 @@ class OffReader {
   void finish_colors() {
     if (!byte_colors_) return;
     const auto linear = [](float byte) {
+      if (std::isnan(byte)) return byte;  // stays, so that the check behind every reader finds it
       return linear_of_srgb_byte()[static_cast<std::size_t>(std::clamp(byte, 0.0f, 255.0f))];
     };
     for (std::size_t i = 0; i < result_.mesh.colors.values.size(); ++i) {
