@@ -1,15 +1,15 @@
 #include <array>
 #include <chrono>
+#include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include "demo_picture.h"
 #include "limn/compare/outline.h"
 #include "limn/mesh/shapes.h"
 #include "limn/refine/refine.h"
+
+#include "demo_picture.h"
 #include "mesh_files.h"
 #include "verb.h"
 
@@ -33,7 +33,7 @@ struct DemoFlags {
 struct Panel {
   std::string_view name;
   Mesh mesh;
-  std::optional<OutlineError> error;    ///< against the dense one
+  std::optional<OutlineError> error;  ///< against the dense one
   std::optional<double> refine_ms, draw_ms;
 };
 
@@ -43,7 +43,9 @@ struct Demo {
   CompareOptions measured;
 };
 
-double milliseconds_since(Clock::time_point begun) { return std::chrono::duration<double, std::milli>(Clock::now() - begun).count(); }
+double milliseconds_since(Clock::time_point begun) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+}
 
 Result<Refinement> refine_panel(Demo& demo, const Refiner& refiner, const DemoFlags& flags) {
   const auto begun = Clock::now();
@@ -62,7 +64,9 @@ Result<void> measure(Session& session, Demo& demo, const Refiner& refiner) {
   if (!plain) return tl::unexpected(plain.error());
   coarse.error = plain->overall;
   const MeshForCamera seen = [&refiner](const Camera& camera, int height_px) -> Result<Mesh> {
-    return refiner.refine(view_of(camera, height_px), {}).map([](Refinement&& result) { return std::move(result.mesh); });
+    return refiner.refine(view_of(camera, height_px), {}).map([](Refinement&& result) {
+      return std::move(result.mesh);
+    });
   };
   const Result<Comparison> smooth = compare_meshes(seen, dense.mesh, demo.measured);
   if (!smooth) return tl::unexpected(smooth.error());
@@ -96,7 +100,8 @@ Result<void> draw(Demo& demo, const DemoFlags& flags) {
   const std::array<const Mesh*, 3> meshes{&demo.panels[0].mesh, &demo.panels[1].mesh, &demo.panels[2].mesh};
   const Result<std::vector<double>> times_ms = draw_demo(meshes, demo.camera, flags.size, flags.output);
   if (!times_ms) return tl::unexpected(times_ms.error());
-  for (std::size_t i = 0; i < meshes.size(); ++i) demo.panels[i].draw_ms = (*times_ms)[i];
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    demo.panels[i].draw_ms = (*times_ms)[i];
   return {};
 }
 
@@ -115,11 +120,14 @@ std::string table_text(const Demo& demo) {
                         error(&OutlineError::mean_px), error(&OutlineError::p95_px), error(&OutlineError::max_px),
                         figure(panel.refine_ms, 2), figure(panel.draw_ms, 1));
   }
-  return text + fmt::format("Error against the dense model over {} random views of {} x {} pixels, refined anew for each.\n",
-                            demo.measured.views, demo.measured.size_px, demo.measured.size_px);
+  return text +
+         fmt::format("Error against the dense model over {} random views of {} x {} pixels, refined anew for each.\n",
+                     demo.measured.views, demo.measured.size_px, demo.measured.size_px);
 }
 
-ordered_json number_or_null(const std::optional<double>& value) { return value ? ordered_json(*value) : ordered_json(nullptr); }
+ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
 
 ordered_json table_json(const Demo& demo, const DemoFlags& flags, bool drawn) {
   ordered_json json{{"picture", drawn ? ordered_json(flags.output) : ordered_json(nullptr)},
@@ -143,7 +151,8 @@ ordered_json table_json(const Demo& demo, const DemoFlags& flags, bool drawn) {
 }
 
 Result<int> run(Session& session, const DemoFlags& flags) {
-  if (const Result<void> good = check_picture_output(session, flags.output, ".png"); !good) return tl::unexpected(good.error());
+  if (const Result<void> good = check_picture_output(session, flags.output, ".png"); !good)
+    return tl::unexpected(good.error());
   if (flags.output == "-") {
     return fail(ErrorCode::kInvalidArgument, "demo: its table takes standard output", "write the picture to a file");
   }

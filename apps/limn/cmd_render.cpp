@@ -1,15 +1,15 @@
 #include <chrono>
+#include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include "limn/image/image.h"
+#include "limn/render/render.h"
 
 #include "camera_options.h"
 #include "drawn_lines.h"
 #include "level_options.h"
-#include "limn/image/image.h"
-#include "limn/render/render.h"
 #include "mesh_files.h"
 #include "verb.h"
 
@@ -36,9 +36,9 @@ struct Scene {
 };
 
 Result<void> check(const Session& session, const RenderFlags& flags) {
-  return check_camera(flags.camera)
-      .and_then([&] { return check_levels(flags.levels); })
-      .and_then([&] { return check_picture_output(session, flags.output, ".png"); });
+  return check_camera(flags.camera).and_then([&] { return check_levels(flags.levels); }).and_then([&] {
+    return check_picture_output(session, flags.output, ".png");
+  });
 }
 
 /// Black, or white where the background is dark.
@@ -65,8 +65,8 @@ Result<Scene> build_scene(Session& session, const RenderFlags& flags, const Mesh
   return scene;
 }
 
-Result<void> report(Session& session, const RenderFlags& flags, const LoadedMesh& loaded, const Scene& scene, const gl::Context& context,
-                    double time_ms) {
+Result<void> report(Session& session, const RenderFlags& flags, const LoadedMesh& loaded, const Scene& scene,
+                    const gl::Context& context, double time_ms) {
   session.say(fmt::format("{}: {}x{}, {}, {:.1f} ms ({})", flags.output, flags.size.width, flags.size.height,
                           counted(scene.mesh.face_count(), "triangle"), time_ms, context.renderer()));
   if (!session.json()) return {};
@@ -111,13 +111,15 @@ Run declare_render(OptionTable& table) {
   table.argument("MODEL", flags->input.path, "mesh to draw; - is standard input");
   table.begin(Group::kOwn);
   table.file("-o,--output", flags->output, "picture to write, .png; - is standard output").required = true;
-  table.choice("--method", flags->refined, {{"coarse", false}, {"refine", true}}, "as it is (default), or refined for this view");
+  table.choice("--method", flags->refined, {{"coarse", false}, {"refine", true}},
+               "as it is (default), or refined for this view");
   table.parsed("--size", "WxH", flags->size, parse_size, "of the picture (default 1024x1024)");
   table.toggle("--wireframe", flags->options.wireframe, "the edges of the triangles drawn");
   table.toggle("--levels", flags->level_lines, "the model's edges coloured by refinement level, blue 0 to yellow M");
   table.toggle("--outline", flags->outline, "the silhouette and the open borders drawn as lines");
   table.toggle("--flat", flags->options.flat, "each triangle in one shade");
-  table.parsed("--background", "COLOR", flags->options.background, parse_color, "name, #rgb, #rrggbb, #rrggbbaa, transparent (default white)");
+  table.parsed("--background", "COLOR", flags->options.background, parse_color,
+               "name, #rgb, #rrggbb, #rrggbbaa, transparent (default white)");
   table.choice("--samples", flags->options.samples, {{"1", 1}, {"4", 4}}, "a pixel (default 4)");
   table.begin(Group::kFiles);
   add_input_options(table, flags->input);
@@ -134,7 +136,8 @@ Verb render_verb() {
               "MODEL -o FILE.png [--method refine] [options]",
               true,
               {{{"limn render knot.ply -o knot.png --view 30,20", "as it is"},
-                {"limn render knot.ply -o levels.png --method refine --levels --size 640x480", "refined for this view, edges coloured by level"},
+                {"limn render knot.ply -o levels.png --method refine --levels --size 640x480",
+                 "refined for this view, edges coloured by level"},
                 {"limn render knot.ply -o - --method refine --outline --background transparent --size 256 > ink.png",
                  "with its outline, on no background, to standard output"}}},
               declare_render};

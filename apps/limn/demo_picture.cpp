@@ -5,9 +5,10 @@
 #ifdef LIMN_WITH_GL
 #include <chrono>
 
-#include "drawn_lines.h"
 #include "limn/image/image.h"
 #include "limn/render/render.h"
+
+#include "drawn_lines.h"
 #endif
 
 namespace limn::cli {

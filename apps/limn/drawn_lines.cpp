@@ -17,11 +17,14 @@ void append_outline(const Mesh& mesh, const Camera& camera, const Vec3& color, s
   const Topology topology = build_topology(mesh);
   std::vector<EdgeId> silhouette;
   extract_silhouette_brute(topology, face_planes(mesh), eye_of(camera), silhouette);
-  for (const EdgeId edge : silhouette) append_edge(mesh, topology.edges[edge], color, lines);
-  for (const EdgeId edge : boundary_edges(topology)) append_edge(mesh, topology.edges[edge], color, lines);
+  for (const EdgeId edge : silhouette)
+    append_edge(mesh, topology.edges[edge], color, lines);
+  for (const EdgeId edge : boundary_edges(topology))
+    append_edge(mesh, topology.edges[edge], color, lines);
 }
 
-void append_level_lines(const Refiner& refiner, const Refinement& refined, int max_level, bool curved, std::vector<Segment3>& lines) {
+void append_level_lines(const Refiner& refiner, const Refinement& refined, int max_level, bool curved,
+                        std::vector<Segment3>& lines) {
   const Mesh& mesh = refiner.mesh();
   const std::vector<Edge>& edges = refiner.topology().edges;
   for (std::size_t e = 0; e < edges.size(); ++e) {

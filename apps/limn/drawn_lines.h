@@ -13,6 +13,7 @@ void append_outline(const Mesh& mesh, const Camera& camera, const Vec3& color, s
 
 /// Appends every edge of the unrefined mesh, coloured by its level.
 /// \param curved  along the refined surface, else straight
-void append_level_lines(const Refiner& refiner, const Refinement& refined, int max_level, bool curved, std::vector<Segment3>& lines);
+void append_level_lines(const Refiner& refiner, const Refinement& refined, int max_level, bool curved,
+                        std::vector<Segment3>& lines);
 
 }  // namespace limn::cli

@@ -2,11 +2,9 @@
 
 #include <csignal>
 #include <fcntl.h>
+#include <initializer_list>
 #include <poll.h>
 #include <unistd.h>
-
-#include <csignal>
-#include <initializer_list>
 
 namespace limn::cli {
 namespace {

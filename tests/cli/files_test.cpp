@@ -84,9 +84,9 @@ TEST_F(Files, GoThroughStandardStreams) {
 }
 
 TEST_F(Files, PipeFromVerbToVerb) {
-  const Outcome outcome =
-      limn.shell("limn make knot --faces 500 --format glb -o - | limn refine - --criterion uniform --max-level 1 "
-                 "--format ply -o - | limn info - --json");
+  const Outcome outcome = limn.shell(
+      "limn make knot --faces 500 --format glb -o - | limn refine - --criterion uniform --max-level 1 "
+      "--format ply -o - | limn info - --json");
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["closed"], true);
 }

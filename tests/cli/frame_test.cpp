@@ -85,7 +85,7 @@ TEST_F(Frame, ShowsThreeExamplesAndEveryFlagInTheFullPage) {
 
 TEST_F(Frame, AnswersAMistypedVerbWithTheNearest) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"rednre", "render"}, {"refien", "refine"}, {"inof", "info"},   {"comp", "compare"}, {"dmeo", "demo"},
+      {"rednre", "render"}, {"refien", "refine"}, {"inof", "info"},      {"comp", "compare"}, {"dmeo", "demo"},
       {"mkae", "make"},     {"hlep", "help"},     {"vesion", "version"}, {"Render", "render"}};
   for (const auto& [typed, meant] : cases) {
     const Outcome outcome = limn.run({typed});
@@ -180,18 +180,17 @@ TEST_F(Frame, ExitsWith3WhereAFileCannotBeReadOrWritten) {
   folder.write("broken.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
   folder.write("noise.bin", std::string("\x01\x02\x03\x00\xff", 5));
   ASSERT_EQ(limn.run({"make", "cube", "-o", "cube.ply"}).exit, 0);
-  const std::vector<Arguments> cases = {
-      {"info", "missing.ply"},
-      {"info", "."},
-      {"info", "broken.ply"},
-      {"info", "noise.bin"},
-      {"make", "cube", "-o", "no/such/folder/cube.ply"},
-      {"refine", "missing.ply", "-o", "a.ply", "--view", "0,0"},
-      {"refine", "cube.ply", "-o", "no/a.ply", "--view", "0,0"},
-      {"render", "missing.ply", "-o", "a.png"},
-      {"compare", "cube.ply", "missing.ply"},
-      {"compare", "broken.ply", "cube.ply"},
-      {"demo", "-o", "no/demo.png"}};
+  const std::vector<Arguments> cases = {{"info", "missing.ply"},
+                                        {"info", "."},
+                                        {"info", "broken.ply"},
+                                        {"info", "noise.bin"},
+                                        {"make", "cube", "-o", "no/such/folder/cube.ply"},
+                                        {"refine", "missing.ply", "-o", "a.ply", "--view", "0,0"},
+                                        {"refine", "cube.ply", "-o", "no/a.ply", "--view", "0,0"},
+                                        {"render", "missing.ply", "-o", "a.png"},
+                                        {"compare", "cube.ply", "missing.ply"},
+                                        {"compare", "broken.ply", "cube.ply"},
+                                        {"demo", "-o", "no/demo.png"}};
   for (const Arguments& words : cases) {
     const Outcome outcome = limn.run(words);
     EXPECT_EQ(outcome.exit, 3) << testing::PrintToString(words) << outcome.err;
@@ -205,13 +204,12 @@ TEST_F(Frame, ExitsWith4WhereAMeshCannotBeUsed) {
   folder.write("empty.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
   folder.write("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   ASSERT_EQ(limn.run({"make", "cube", "-o", "cube.ply"}).exit, 0);
-  const std::vector<Arguments> cases = {
-      {"refine", "empty.obj", "-o", "a.ply", "--view", "0,0"},
-      {"render", "empty.obj", "-o", "a.png"},
-      {"compare", "empty.obj", "cube.ply"},
-      {"compare", "cube.ply", "empty.obj"},
-      {"info", "nan.obj"},
-      {"refine", "cube.ply", "-o", "a.ply", "--criterion", "tags"}};
+  const std::vector<Arguments> cases = {{"refine", "empty.obj", "-o", "a.ply", "--view", "0,0"},
+                                        {"render", "empty.obj", "-o", "a.png"},
+                                        {"compare", "empty.obj", "cube.ply"},
+                                        {"compare", "cube.ply", "empty.obj"},
+                                        {"info", "nan.obj"},
+                                        {"refine", "cube.ply", "-o", "a.ply", "--criterion", "tags"}};
   for (const Arguments& words : cases) {
     const Outcome outcome = limn.run(words);
     EXPECT_EQ(outcome.exit, 4) << testing::PrintToString(words) << outcome.err;

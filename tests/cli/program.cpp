@@ -125,7 +125,8 @@ Outcome Program::run_and_signal(const Arguments& arguments, int signal, int dela
   Arguments words{LIMN_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const int in = text_as_input({});
-  Outcome outcome = run_child(in, [&] { become(words); }, signal, delay_ms);
+  Outcome outcome = run_child(
+      in, [&] { become(words); }, signal, delay_ms);
   ::close(in);
   return outcome;
 }

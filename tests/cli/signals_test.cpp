@@ -41,7 +41,8 @@ TEST_F(Signals, TerminatedComparisonEndsWith143) {
 TEST_F(Signals, InterruptedRefinementLeavesNoFile) {
   ASSERT_EQ(limn.run({"make", "knot", "--faces", "150000", "-o", "knot.ply"}).exit, 0);
   const Outcome outcome = limn.run_and_signal(
-      {"refine", "knot.ply", "-o", "fine.ply", "--criterion", "uniform", "--max-level", "4", "--threads", "1"}, SIGINT, 300);
+      {"refine", "knot.ply", "-o", "fine.ply", "--criterion", "uniform", "--max-level", "4", "--threads", "1"}, SIGINT,
+      300);
   EXPECT_EQ(outcome.exit, 130) << outcome.err;
   EXPECT_TRUE(only("knot.ply"));
 }
@@ -50,7 +51,8 @@ TEST_F(Signals, InterruptedRefinementKeepsTheEarlierFile) {
   ASSERT_EQ(limn.run({"make", "knot", "--faces", "150000", "-o", "knot.ply"}).exit, 0);
   const std::string before = slurp(folder / "knot.ply");
   const Outcome outcome = limn.run_and_signal(
-      {"refine", "knot.ply", "-o", "knot.ply", "--criterion", "uniform", "--max-level", "4", "--threads", "1"}, SIGINT, 300);
+      {"refine", "knot.ply", "-o", "knot.ply", "--criterion", "uniform", "--max-level", "4", "--threads", "1"}, SIGINT,
+      300);
   EXPECT_EQ(outcome.exit, 130) << outcome.err;
   EXPECT_TRUE(slurp(folder / "knot.ply") == before);
   EXPECT_TRUE(only("knot.ply"));

@@ -46,7 +46,8 @@ const Arguments kRender = {"render", "missing.ply", "-o", "a.png"};
 const Arguments kCompare = {"compare", "missing.ply", "b.ply"};
 
 TEST_F(Values, RefuseWhatIsNoWholeNumber) {
-  const std::vector<std::string> junk = {"3x", "", " 3", "3 ", "-1", "+3", "nan", "inf", "1e3", "0x10", "3.5", "99999999999999999999999"};
+  const std::vector<std::string> junk = {"3x",  "",    " 3",  "3 ",   "-1",  "+3",
+                                         "nan", "inf", "1e3", "0x10", "3.5", "99999999999999999999999"};
   expect_refused(kMake, "--faces", junk);
   expect_refused(kMake, "--seed", junk);
   expect_refused(kMake, "--threads", junk);
@@ -63,7 +64,8 @@ TEST_F(Values, RefuseWhatIsNoWholeNumber) {
 }
 
 TEST_F(Values, RefuseWhatIsNoNumberInRange) {
-  const std::vector<std::string> junk = {"3x", "", " 3", "3 ", "nan", "NaN", "inf", "-inf", "1e999", "0x10", "1,5", "--", "+-1", "++1"};
+  const std::vector<std::string> junk = {"3x",   "",      " 3",   "3 ",  "nan", "NaN", "inf",
+                                         "-inf", "1e999", "0x10", "1,5", "--",  "+-1", "++1"};
   for (const char* flag : {"--pixels", "--fov", "--wedge", "--crease-angle", "--near"})
     expect_refused(kRefine, flag, junk);
   expect_refused(kRefine, "--pixels", {"0", "-1"});
@@ -75,7 +77,8 @@ TEST_F(Values, RefuseWhatIsNoNumberInRange) {
 }
 
 TEST_F(Values, RefuseWhatIsNoPointOrView) {
-  const std::vector<std::string> junk = {"1", "1,2", "1,2,3,4", "1,2,x", "1,,3", "1, 2,3", "nan,0,0", "1e39,0,0", "", "a,b,c"};
+  const std::vector<std::string> junk = {"1",      "1,2",     "1,2,3,4",  "1,2,x", "1,,3",
+                                         "1, 2,3", "nan,0,0", "1e39,0,0", "",      "a,b,c"};
   expect_refused(kRefineUnseen, "--eye", junk);
   expect_refused(kRefine, "--target", junk);
   expect_refused(kRefineUnseen, "--view", {"1", "1,2,3", "0,91", "0,-90.5", "x,0", "nan,0", ""});
@@ -84,19 +87,23 @@ TEST_F(Values, RefuseWhatIsNoPointOrView) {
 }
 
 TEST_F(Values, RefuseWhatIsNoSize) {
-  const std::vector<std::string> junk = {"0x5", "5x0", "x", "5x", "x5", "5x5x5", "-5x5", "5X5", "16385x1", "5.5x5", "axb", ""};
+  const std::vector<std::string> junk = {"0x5",  "5x0", "x",       "5x",    "x5",  "5x5x5",
+                                         "-5x5", "5X5", "16385x1", "5.5x5", "axb", ""};
   expect_refused(kRender, "--size", junk);
   expect_refused({"demo"}, "--size", junk);
   expect_accepted(kRender, "--size", {"1x1", "64", "16384x1"});
 }
 
 TEST_F(Values, RefuseWhatIsNoColour) {
-  expect_refused(kRender, "--background", {"", "#", "#12", "#1234", "#12345", "#gggggg", "#1234567", "whit", "White", "123456"});
+  expect_refused(kRender, "--background",
+                 {"", "#", "#12", "#1234", "#12345", "#gggggg", "#1234567", "whit", "White", "123456"});
   expect_accepted(kRender, "--background", {"white", "transparent", "#fff", "#FfA010", "#11223344"});
 }
 
 TEST_F(Values, RefuseWhatIsNoGate) {
-  expect_refused(kCompare, "--fail-if", {"", "mean_px", "mean_px>", ">1", "mean_px=1", "mean_px==1", "mean_px>x", "mean_px>1x", "mean_px>nan", "mean>1", "iou>1>2"});
+  expect_refused(kCompare, "--fail-if",
+                 {"", "mean_px", "mean_px>", ">1", "mean_px=1", "mean_px==1", "mean_px>x", "mean_px>1x", "mean_px>nan",
+                  "mean>1", "iou>1>2"});
   expect_accepted(kCompare, "--fail-if", {"mean_px>0.5", "p95_px >= 1", " max_px<3", "iou<=0.99"});
 }
 

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/program.h"
 #include "limn/image/image.h"
+
+#include "cli/program.h"
 #include "support/temp_folder.h"
 
 namespace limn::test {
@@ -141,12 +142,8 @@ TEST_F(Verbs, CompareExitsWith5WhenAGateFailsOnly) {
   make("knot", "knot.ply", 500);
   make("knot", "dense.ply", 8000);
   Arguments words = {"compare", "knot.ply", "dense.ply", "--views", "2", "--size", "256", "--fail-if", ""};
-  for (const auto& [gate, exit] : std::vector<std::pair<std::string, int>>{{"mean_px>1000", 0},
-                                                                          {"mean_px>0", 5},
-                                                                          {"max_px >= 0", 5},
-                                                                          {"iou<0.1", 0},
-                                                                          {"iou<=1", 5},
-                                                                          {"p95_px<0", 0}}) {
+  for (const auto& [gate, exit] : std::vector<std::pair<std::string, int>>{
+           {"mean_px>1000", 0}, {"mean_px>0", 5}, {"max_px >= 0", 5}, {"iou<0.1", 0}, {"iou<=1", 5}, {"p95_px<0", 0}}) {
     words.back() = gate;
     const Outcome outcome = limn.run(words);
     EXPECT_EQ(outcome.exit, exit) << gate << outcome.err;
@@ -159,7 +156,8 @@ TEST_F(Verbs, CompareExitsWith5WhenAGateFailsOnly) {
 
 TEST_F(Verbs, RenderDrawsAPictureOfTheSizeAskedFor) {
   make("torus", "torus.ply", 500);
-  ASSERT_EQ(limn.run({"render", "torus.ply", "-o", "torus.png", "--size", "120x80", "--background", "#102030"}).exit, 0);
+  ASSERT_EQ(limn.run({"render", "torus.ply", "-o", "torus.png", "--size", "120x80", "--background", "#102030"}).exit,
+            0);
   const Image image = picture("torus.png");
   EXPECT_EQ(image.width, 120);
   EXPECT_EQ(image.height, 80);
