@@ -47,7 +47,7 @@ TEST(GltfBroken, FieldsOutOfRangeAreNamedWithTheirCause) {
       {"/nodes/0/matrix", {1, 2, 3}, "nodes[0].matrix", "16 numbers"},
       {"/meshes/0/primitives/0/attributes", Json::object(), "meshes[0].primitives[0].attributes.POSITION", "missing"},
       {"/meshes/0/primitives/0/attributes/POSITION", 9, "meshes[0].primitives[0].attributes.POSITION", "is 9"},
-      {"/meshes/0/primitives/0/attributes/NORMAL", 1, "meshes[0].primitives[0].attributes.NORMAL", ""},
+      {"/meshes/0/primitives/0/attributes/NORMAL", 1, "accessors[1].type", "does not fit"},
       {"/meshes/0/primitives/0/indices", 0, "accessors[0].type", "does not fit"},
       {"/meshes/0/primitives/0/mode", 7, "meshes[0].primitives[0].mode", "0 to 6"},
       {"/meshes/0/primitives/0/material", 0, "meshes[0].primitives[0].material", "is 0, but materials has 0"},
@@ -180,7 +180,7 @@ TEST(GltfBroken, MalformedJsonIsRefusedAndDeepNestingDoesNoHarm) {
   expect_refused("{\"asset\":" + open + close + "}", "asset", "asset", "must be an object");
   expect_refused("{}", "no asset", "asset", "is missing");
   expect_refused("{\"asset\":{\"version\":\"2.0\"},\"x\":1e999}", "huge number", "", "malformed JSON");
-  expect_refused("{\"asset\":{\"version\":\"\xff\"}}", "not UTF-8", "byte 21", "malformed JSON");
+  expect_refused("{\"asset\":{\"version\":\"\xff\"}}", "not UTF-8", "byte 22", "malformed JSON");
   const std::string extras = "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + open + close + "}";
   EXPECT_TRUE(read_gltf(source_of(extras)).has_value());
 }
