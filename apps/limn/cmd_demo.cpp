@@ -22,11 +22,13 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kDenseFaces = 60'000;
 constexpr float kAzimuthRad = 0.5f;
 constexpr float kElevationRad = 0.35f;
+/// The knot is a good deal smaller than the sphere around its box, which is what a camera fits.
+constexpr float kFill = 1.4f;
 
 struct DemoFlags {
   std::string output = "demo.png";
   std::uint64_t faces = 800;
-  Size size{1536, 512};
+  Size size{1800, 600};
 };
 
 /// One of the three, left to right.
@@ -80,6 +82,7 @@ Result<Demo> build(Session& session, const DemoFlags& flags) {
   Result<Mesh> dense = make_shape(Shape::kKnot, {kDenseFaces, 1});
   if (!dense) return tl::unexpected(dense.error());
   CameraFit fit;
+  fit.fill = kFill;
   fit.aspect = static_cast<float>(flags.size.width / 3) / static_cast<float>(flags.size.height);
   Demo demo;
   demo.camera = fit_camera(face_bounds(*dense), kAzimuthRad, kElevationRad, fit);
@@ -173,7 +176,7 @@ Run declare_demo(OptionTable& table) {
   const auto flags = std::make_shared<DemoFlags>();
   table.file("-o,--output", flags->output, "picture to write (default demo.png)");
   table.count("--faces", flags->faces, 100, kDenseFaces, "of the coarse model, about (default 800)");
-  table.parsed("--size", "WxH", flags->size, parse_size, "of the picture, three panels wide (default 1536x512)");
+  table.parsed("--size", "WxH", flags->size, parse_size, "of the picture, three panels wide (default 1800x600)");
   return [flags](Session& session) { return run(session, *flags); };
 }
 

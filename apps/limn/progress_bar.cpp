@@ -53,7 +53,7 @@ void ProgressBar::update(std::string_view stage, double done) {
   drawn_ = now;
   visible_ = true;
   const double elapsed_s = std::chrono::duration<double>(now - begun_).count();
-  put("\r" + progress_line(stage, done, elapsed_s, terminal_columns()) + "\x1b[K");
+  put(fmt::format("\r{}\x1b[K", progress_line(stage, done, elapsed_s, terminal_columns())));
 }
 
 void ProgressBar::clear() {
