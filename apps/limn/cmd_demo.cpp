@@ -184,7 +184,7 @@ Run declare_demo(OptionTable& table) {
 
 Verb demo_verb() {
   return Verb{"demo",
-              "shows a coarse model, the same refined, and a dense one; picture and figures, no files needed",
+              "shows a coarse model beside the same refined: a picture and a table, no files needed",
               "[-o FILE.png] [--faces N] [--size WxH]",
               true,
               {{{"limn demo", "demo.png, and the table"},

@@ -92,8 +92,9 @@ TEST_F(Files, PipeFromVerbToVerb) {
 }
 
 TEST_F(Files, ClosedPipesEndQuietly) {
-  const Outcome outcome =
-      limn.shell("limn make torus --faces 1000000 --format ply -o - --quiet | head -c 10; echo; echo ${PIPESTATUS[0]}");
+  const Outcome outcome = limn.shell(
+      "limn make torus --faces 1000000 --format ply -o - --quiet | head -c 10; code=${PIPESTATUS[0]}; echo; echo "
+      "$code");
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(outcome.out, "ply\nformat\n141\n");
   EXPECT_EQ(limn.shell("limn help --json | head -c 1").err, "");
