@@ -96,10 +96,6 @@ class Json : public testing::Test {
   Program limn{folder.path()};
 };
 
-TEST_F(Json, OfDemoIsAsDocumented) {
-  expect_schema(limn.json({"demo", "--size", "300x100"}), "demo");
-}
-
 TEST_F(Json, OfInfoIsAsDocumented) {
   expect_schema(limn.json({"info", "knot.ply"}), "info");
   expect_schema(limn.json({"info", "broken.obj", "--repair"}), "info");
@@ -116,9 +112,17 @@ TEST_F(Json, OfRefineIsAsDocumented) {
   expect_schema(limn.json({"refine", "broken.obj", "-o", "fine.ply", "--view", "0,0", "--repair"}), "refine");
 }
 
+#ifdef LIMN_WITH_GL
+
+TEST_F(Json, OfDemoIsAsDocumented) {
+  expect_schema(limn.json({"demo", "--size", "300x100"}), "demo");
+}
+
 TEST_F(Json, OfRenderIsAsDocumented) {
   expect_schema(limn.json({"render", "knot.ply", "-o", "knot.png", "--size", "64x48", "--outline"}), "render");
 }
+
+#endif
 
 TEST_F(Json, OfCompareIsAsDocumented) {
   expect_schema(limn.json({"compare", "knot.ply", "knot.ply", "--views", "2", "--size", "64"}), "compare");

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
@@ -54,6 +55,16 @@ void wait_for(pid_t child, Outcome& outcome) {
   if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
 }
 
+/// Whether a process has a handler of its own for the signal: what is sent before that would only end it.
+bool catches(pid_t pid, int signal) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with("SigCgt:")) continue;
+    return ((std::stoull(line.substr(7), nullptr, 16) >> (signal - 1)) & 1u) != 0;
+  }
+  return false;
+}
+
 /// Runs `child` in a process of its own with its three streams redirected.
 template <class Child>
 Outcome run_child(int in, const Child& child, int signal = 0, int delay_ms = 0) {
@@ -68,6 +79,8 @@ Outcome run_child(int in, const Child& child, int signal = 0, int delay_ms = 0) 
   ::close(out.write_end);
   ::close(err.write_end);
   if (signal != 0) {
+    for (int i = 0; i < 1000 && !catches(pid, signal); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
     ::kill(pid, signal);
   }

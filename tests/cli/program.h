@@ -33,7 +33,7 @@ class Program {
   /// A shell's command line, where `limn` is the built program.
   Outcome shell(const std::string& command) const;
 
-  /// Sends a signal once the program has run for `delay_ms`.
+  /// Sends a signal `delay_ms` after the program began to handle it.
   Outcome run_and_signal(const Arguments& arguments, int signal, int delay_ms) const;
 
   /// Runs with standard error on a terminal of 80 columns; `err` is what the terminal was sent.
