@@ -83,7 +83,8 @@ Result<Demo> build(Session& session, const DemoFlags& flags) {
   if (!dense) return tl::unexpected(dense.error());
   CameraFit fit;
   fit.fill = kFill;
-  fit.aspect = static_cast<float>(flags.size.width / 3) / static_cast<float>(flags.size.height);
+  const int panel_width = flags.size.width / 3;
+  fit.aspect = static_cast<float>(panel_width) / static_cast<float>(flags.size.height);
   Demo demo;
   demo.camera = fit_camera(face_bounds(*dense), kAzimuthRad, kElevationRad, fit);
   const Result<Refiner> refiner = Refiner::create(*coarse);

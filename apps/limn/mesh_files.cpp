@@ -103,7 +103,7 @@ Result<void> check_picture_output(const Session& session, const std::string& pat
 }
 
 Result<void> save(Session& session, const Mesh& mesh, const OutputOptions& options) {
-  if (const Result<void> going = session.check_stop(); !going) return going;
+  if (Result<void> going = session.check_stop(); !going) return going;
   ExportOptions exported;
   exported.format = options.format;
   exported.ascii = options.ascii;

@@ -3,14 +3,14 @@
 namespace limn::cli {
 
 std::span<const Verb> verbs() {
-  static const std::array kVerbs{
+  static const std::array all{
       demo_verb(),    info_verb(), make_verb(),    refine_verb(),
 #ifdef LIMN_WITH_GL
       render_verb(),
 #endif
       compare_verb(), help_verb(), version_verb(), completion_verb(), man_verb(),
   };
-  return kVerbs;
+  return all;
 }
 
 const Verb* find_verb(std::string_view name) {
