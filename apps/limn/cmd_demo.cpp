@@ -160,6 +160,9 @@ Result<int> run(Session& session, const DemoFlags& flags) {
   if (flags.output == "-") {
     return fail(ErrorCode::kInvalidArgument, "demo: its table takes standard output", "write the picture to a file");
   }
+  if (flags.size.width < 3) {
+    return fail(ErrorCode::kInvalidArgument, "demo: --size is narrower than three panels", "make it wider");
+  }
   Result<Demo> demo = build(session, flags);
   if (!demo) return tl::unexpected(demo.error());
   if (const Result<void> going = session.check_stop(); !going) return tl::unexpected(going.error());

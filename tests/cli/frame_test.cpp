@@ -166,6 +166,7 @@ TEST_F(Frame, ExitsWith2OnEveryKindOfWrongUsage) {
       {"completion", "csh"},
       {"demo", "extra"},
       {"demo", "-o", "demo.jpg"},
+      {"demo", "--size", "2x2"},
       {"version", "extra"}};
   for (const Arguments& words : cases) {
     const Outcome outcome = limn.run(words);
