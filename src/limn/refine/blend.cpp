@@ -22,12 +22,12 @@ Vec3 surplus_point(const Vec3& f, const Vec3& a_f, const Vec3& b_f, const Vec3& 
 }
 
 /// S_l[F] at segment k of 2^t along an edge: linear between the vertices of level l.
-Vec3 sampled_on_edge(std::span<const Vec3> f, int k, int t, int l) {
-  const int step = 1 << (t - l);
-  const int low = k & ~(step - 1);
-  if (low == k) return f[static_cast<std::size_t>(k)];
+Vec3 sampled_on_edge(std::span<const Vec3> f, std::size_t k, int t, int l) {
+  const std::size_t step = std::size_t{1} << (t - l);
+  const std::size_t low = k & ~(step - 1);
+  if (low == k) return f[k];
   const float x = static_cast<float>(k - low) / static_cast<float>(step);
-  return f[static_cast<std::size_t>(low)] * (1.0f - x) + f[static_cast<std::size_t>(low + step)] * x;
+  return f[low] * (1.0f - x) + f[low + step] * x;
 }
 
 /// S_l[F] at a vertex of the grid: linear on the triangle of level l that holds it (equation (7)).
@@ -63,23 +63,20 @@ Vec3 paper_point(float s, const Sampled& sampled_at) {
 
 void sample_edge(const Vec3& p0, const EdgeCurve& curve, const Vec3& p1, float s, int t, Blend blend,
                  std::span<Vec3> curve_points, std::span<Vec3> surface_points) {
-  const int n = 1 << t;
-  assert(s <= static_cast<float>(t) && curve_points.size() == static_cast<std::size_t>(n) + 1);
-  for (int k = 0; k <= n; ++k)
-    curve_points[static_cast<std::size_t>(k)] = evaluate_curve(p0, curve, p1, k, t);
-  curve_points.front() = p0;
-  curve_points.back() = p1;
-  surface_points.front() = p0;
-  surface_points.back() = p1;
+  const std::size_t n = std::size_t{1} << t;
+  assert(s <= static_cast<float>(t) && curve_points.size() == n + 1 && surface_points.size() == n + 1);
+  for (std::size_t k = 0; k <= n; ++k)
+    curve_points[k] = evaluate_curve(p0, curve, p1, static_cast<int>(k), t);
+  curve_points.front() = surface_points.front() = p0;
+  curve_points.back() = surface_points.back() = p1;
   for (int level = 1; level <= t; ++level) {
-    const int step = 1 << (t - level);
-    for (int k = step; k < n; k += 2 * step) {
-      const auto at = [](int index) { return static_cast<std::size_t>(index); };
-      surface_points[at(k)] =
+    const std::size_t step = n >> level;
+    for (std::size_t k = step; k < n; k += 2 * step) {
+      surface_points[k] =
           blend == Blend::kPaper
               ? paper_point(s, [&](int l) { return sampled_on_edge(curve_points, k, t, l); })
-              : surplus_point(curve_points[at(k)], curve_points[at(k - step)], curve_points[at(k + step)],
-                              surface_points[at(k - step)], surface_points[at(k + step)], surplus_share(s, level));
+              : surplus_point(curve_points[k], curve_points[k - step], curve_points[k + step], surface_points[k - step],
+                              surface_points[k + step], surplus_share(s, level));
     }
   }
 }

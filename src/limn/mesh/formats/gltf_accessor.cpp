@@ -101,12 +101,12 @@ Accessor open(Document& document, std::size_t index, std::size_t least, std::siz
   const Field field = document["accessors"].at(index);
   const std::uint64_t type = field["componentType"].index();
   const std::string shape = field["type"].string();
-  const Accessor accessor{field,
-                          field["count"].index(),
-                          type,
-                          component_size(type, field["componentType"]),
-                          component_count(shape),
-                          field["normalized"].boolean_or(false)};
+  Accessor accessor{field,
+                    field["count"].index(),
+                    type,
+                    component_size(type, field["componentType"]),
+                    component_count(shape),
+                    field["normalized"].boolean_or(false)};
   if (accessor.components < least || accessor.components > most) {
     refuse(field["type"].path(), "does not fit the attribute that uses it");
   }

@@ -24,7 +24,7 @@ glm::dmat4 local_transform(const Field& node) {
   if (const auto columns = node["matrix"].numbers<16>()) {
     for (int c = 0; c < 4; ++c) {
       for (int r = 0; r < 4; ++r)
-        m[c][r] = (*columns)[static_cast<std::size_t>(4 * c + r)];
+        m[c][r] = (*columns)[4 * static_cast<std::size_t>(c) + static_cast<std::size_t>(r)];
     }
     return m;
   }

@@ -46,7 +46,7 @@ class OffReader {
 
   Result<void> read_header() {
     if (!next_line()) return complain("no OFF file: there is nothing in it");
-    if (const Result<void> keyword = read_keyword(); !keyword) return keyword;
+    if (Result<void> keyword = read_keyword(); !keyword) return keyword;
     if (text_.line_done() && !next_line()) return complain("the file ends before its counts");
     std::int64_t counts[3] = {0, 0, 0};
     for (int i = 0; i < 2; ++i) {
@@ -120,7 +120,7 @@ class OffReader {
       }
       mesh.positions.push_back(position);
       if (kind_.normals) mesh.normals.values.push_back(normal);
-      if (const Result<void> done = read_extras(vertex); !done) return done;
+      if (Result<void> done = read_extras(vertex); !done) return done;
     }
     return {};
   }
@@ -166,7 +166,7 @@ class OffReader {
         return complain(
             fmt::format("truncated: {} faces are claimed, the file ends before face {}", face_count_, face));
       }
-      if (const Result<void> done = read_corners(face, corners); !done) return done;
+      if (Result<void> done = read_corners(face, corners); !done) return done;
       face_colors_ += !text_.line_done();
       add_polygon(corners);
     }

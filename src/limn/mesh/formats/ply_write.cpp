@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <optional>
@@ -22,7 +23,7 @@ struct ColorStorage {
 std::optional<std::uint8_t> alpha_byte_of(float alpha) {
   const float scaled = alpha * 255.0f;
   if (!(scaled >= 0.0f && scaled <= 255.0f)) return std::nullopt;
-  const auto byte = static_cast<std::uint8_t>(scaled + 0.5f);
+  const auto byte = static_cast<std::uint8_t>(std::lround(scaled));
   if (static_cast<float>(byte) / 255.0f != alpha) return std::nullopt;
   return byte;
 }

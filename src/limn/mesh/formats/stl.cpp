@@ -84,7 +84,7 @@ class TextStl {
         return fail(ErrorCode::kCancelled, "reading was cancelled");
       }
       while (!text_.line_done()) {
-        if (const Result<void> done = read_word(text_.token()); !done) return done;
+        if (Result<void> done = read_word(text_.token()); !done) return done;
       }
     }
     if (in_facet_) return complain(fmt::format("truncated: the file ends in facet {}", facets_));
