@@ -20,12 +20,14 @@ DVec3 unit_normal(const Mesh& mesh, FaceId face) {
   return length > 0.0 ? cross / length : DVec3(0.0);
 }
 
-double corner_angle(const Mesh& mesh, FaceId face, std::size_t c) {
+/// How much a face counts at its corner: the angle there, times the root of the area (docs/topology.md says why).
+double corner_weight(const Mesh& mesh, FaceId face, std::size_t c) {
   const Triangle& t = mesh.faces[face];
   const DVec3 p = mesh.positions[t[c]];
   const DVec3 u = DVec3(mesh.positions[t[(c + 1) % 3]]) - p;
   const DVec3 v = DVec3(mesh.positions[t[(c + 2) % 3]]) - p;
-  return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
+  const double doubled_area = glm::length(glm::cross(u, v));
+  return std::atan2(doubled_area, glm::dot(u, v)) * std::sqrt(doubled_area);
 }
 
 std::size_t longest_side(const Mesh& mesh, FaceId face) {
@@ -118,20 +120,24 @@ CornerAttribute<Vec3> crease_normals(const Mesh& mesh, const Topology& topology,
   const std::size_t corners = 3 * mesh.faces.size();
   result.indices.resize(corners);
   std::vector<DVec3> sums;
+  std::vector<double> weights;
   for (std::uint32_t corner = 0; corner < corners; ++corner) {
     const std::uint32_t root = fans.root(corner);
     if (root == corner) {
       result.indices[corner] = static_cast<std::uint32_t>(sums.size());
       sums.emplace_back(0.0);
+      weights.push_back(0.0);
     } else {
       result.indices[corner] = result.indices[root];
     }
-    sums[result.indices[corner]] += corner_angle(mesh, corner / 3, corner % 3) * normals[corner / 3];
+    const double weight = corner_weight(mesh, corner / 3, corner % 3);
+    sums[result.indices[corner]] += weight * normals[corner / 3];
+    weights[result.indices[corner]] += weight;
   }
   result.values.resize(sums.size());
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const double length = glm::length(sums[i]);
-    result.values[i] = length > 1e-12 ? Vec3(sums[i] / length) : Vec3(0);
+    result.values[i] = length > 1e-12 * weights[i] ? Vec3(sums[i] / length) : Vec3(0);
   }
   // A fan that cancels out (a sheet folded onto itself, a face without area) takes its face's normal, or any.
   for (std::uint32_t corner = 0; corner < corners; ++corner) {
