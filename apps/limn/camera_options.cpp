@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 namespace limn::cli {
 namespace {
@@ -37,6 +38,20 @@ void step_back(Camera& camera, const Bounds& bounds) {
   camera.eye = Vec3(DVec3(camera.target) + away * distance);
 }
 
+/// Stray vertices are not seen and do not count.
+std::vector<Vec3> used_positions(const Mesh& mesh) {
+  std::vector<bool> used(mesh.positions.size(), false);
+  for (const Triangle& face : mesh.faces) {
+    for (const VertexId v : face)
+      used[v] = true;
+  }
+  std::vector<Vec3> positions;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v]) positions.push_back(mesh.positions[v]);
+  }
+  return positions;
+}
+
 }  // namespace
 
 void add_camera_options(OptionTable& table, CameraOptions& options) {
@@ -59,13 +74,14 @@ Result<void> check_camera(const CameraOptions& options) {
   return {};
 }
 
-Result<Camera> place_camera(const CameraOptions& options, const Bounds& bounds, float aspect) {
+Result<Camera> place_camera(const CameraOptions& options, const Mesh& mesh, float aspect) {
+  const Bounds bounds = face_bounds(mesh);
   CameraFit fit;
   fit.orthographic = options.orthographic;
   fit.aspect = aspect;
   if (options.fov_deg) fit.fov_rad = radians(*options.fov_deg);
   const Vec2 view_deg = options.view_deg.value_or(Vec2(30.0f, 20.0f));
-  Camera camera = fit_camera(bounds, radians(view_deg.x), radians(view_deg.y), fit);
+  Camera camera = fit_camera(used_positions(mesh), view_direction(radians(view_deg.x), radians(view_deg.y)), fit);
   if (options.eye) {
     camera.eye = *options.eye;
     camera.target = options.target.value_or(bounds.center());

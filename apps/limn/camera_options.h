@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "limn/base/bounds.h"
 #include "limn/base/camera.h"
+#include "limn/mesh/mesh.h"
 
 #include "option_table.h"
 
@@ -25,9 +25,9 @@ void add_camera_options(OptionTable& table, CameraOptions& options);
 /// Errors: kInvalidArgument for options that contradict each other; needs no mesh, so ask first.
 Result<void> check_camera(const CameraOptions& options);
 
-/// The camera, its near and far planes around the bounds. Without --eye and --view it looks from azimuth 30,
-/// elevation 20. \param aspect width / height \pre !bounds.empty() Errors: kInvalidArgument when the eye is at the
-/// target.
-Result<Camera> place_camera(const CameraOptions& options, const Bounds& bounds, float aspect);
+/// The camera, its near and far planes around the mesh. Without --eye and --view it looks from azimuth 30, elevation
+/// 20, from as near as the mesh fits. \param aspect width / height \pre the mesh has a face Errors: kInvalidArgument
+/// when the eye is at the target.
+Result<Camera> place_camera(const CameraOptions& options, const Mesh& mesh, float aspect);
 
 }  // namespace limn::cli

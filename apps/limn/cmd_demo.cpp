@@ -22,8 +22,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kDenseFaces = 60'000;
 constexpr float kAzimuthRad = 0.5f;
 constexpr float kElevationRad = 0.35f;
-/// The knot is a good deal smaller than the sphere around its box, which is what a camera fits.
-constexpr float kFill = 1.4f;
+/// Share of a panel that the knot spans.
+constexpr float kFill = 0.92f;
 
 struct DemoFlags {
   std::string output = "demo.png";
@@ -86,7 +86,7 @@ Result<Demo> build(Session& session, const DemoFlags& flags) {
   const int panel_width = flags.size.width / 3;
   fit.aspect = static_cast<float>(panel_width) / static_cast<float>(flags.size.height);
   Demo demo;
-  demo.camera = fit_camera(face_bounds(*dense), kAzimuthRad, kElevationRad, fit);
+  demo.camera = fit_camera(dense->positions, view_direction(kAzimuthRad, kElevationRad), fit);
   const Result<Refiner> refiner = Refiner::create(*coarse);
   if (!refiner) return tl::unexpected(refiner.error());
   Result<Refinement> refined = refine_panel(demo, *refiner, flags);

@@ -82,7 +82,7 @@ Result<int> run(Session& session, const RefineFlags& flags) {
   View view;
   if (flags.camera.placed()) {
     const float aspect = static_cast<float>(flags.size.width) / static_cast<float>(flags.size.height);
-    const Result<Camera> camera = place_camera(flags.camera, face_bounds(loaded->mesh), aspect);
+    const Result<Camera> camera = place_camera(flags.camera, loaded->mesh, aspect);
     if (!camera) return tl::unexpected(camera.error());
     view = view_of(*camera, flags.size.height);
   }

@@ -49,7 +49,7 @@ Vec3 ink(const Vec4& background) {
 
 Result<Scene> build_scene(Session& session, const RenderFlags& flags, const Mesh& mesh) {
   const float aspect = static_cast<float>(flags.size.width) / static_cast<float>(flags.size.height);
-  const Result<Camera> camera = place_camera(flags.camera, face_bounds(mesh), aspect);
+  const Result<Camera> camera = place_camera(flags.camera, mesh, aspect);
   if (!camera) return tl::unexpected(camera.error());
   Scene scene{mesh, *camera, {}};
   if (flags.refined || flags.level_lines) {

@@ -6,6 +6,7 @@
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace limn {
 
@@ -49,8 +50,55 @@ Camera fit_camera(const Bounds& bounds, const Vec3& direction, const CameraFit& 
 }
 
 Camera fit_camera(const Bounds& bounds, float azimuth_rad, float elevation_rad, const CameraFit& fit) {
+  return fit_camera(bounds, view_direction(azimuth_rad, elevation_rad), fit);
+}
+
+Vec3 view_direction(float azimuth_rad, float elevation_rad) {
   const float c = std::cos(elevation_rad);
-  return fit_camera(bounds, Vec3(c * std::sin(azimuth_rad), std::sin(elevation_rad), c * std::cos(azimuth_rad)), fit);
+  return {c * std::sin(azimuth_rad), std::sin(elevation_rad), c * std::cos(azimuth_rad)};
+}
+
+Camera fit_camera(std::span<const Vec3> points, const Vec3& direction, const CameraFit& fit) {
+  assert(!points.empty());
+  const Bounds bounds = bounds_of(points);
+  Camera camera = fit_camera(bounds, direction, fit);
+  const double diagonal = bounds.diagonal();
+  const double radius = 0.5 * (diagonal > 0.0 ? diagonal : 1.0);
+  const DVec3 middle = bounds.center();
+  const glm::dmat3 axes = glm::transpose(glm::dmat3(view_matrix(camera)));  // columns: right, up, towards the viewer
+  const double half_height = fit.orthographic ? 1.0 : std::tan(0.5 * fit.fov_rad) * fit.fill;
+  // Points against the planes of the view's pyramid, whose sides lean by `lean` a unit of depth: a parallel one's by 0.
+  const double lean[2] = {fit.orthographic ? 0.0 : half_height * fit.aspect, fit.orthographic ? 0.0 : half_height};
+  double low[2] = {HUGE_VAL, HUGE_VAL};
+  double high[2] = {-HUGE_VAL, -HUGE_VAL};
+  double nearest = -HUGE_VAL;
+  double farthest = HUGE_VAL;
+  for (const Vec3& point : points) {
+    const DVec3 p = DVec3(point) - middle;
+    const double depth = glm::dot(p, axes[2]);
+    nearest = std::max(nearest, depth);
+    farthest = std::min(farthest, depth);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double across = glm::dot(p, axes[axis]);
+      high[axis] = std::max(high[axis], across + lean[axis] * depth);
+      low[axis] = std::min(low[axis], across - lean[axis] * depth);
+    }
+  }
+  const double width = high[0] - low[0];
+  const double height = high[1] - low[1];
+  double distance = nearest + 2.0 * radius;
+  if (fit.orthographic) {
+    camera.ortho_height =
+        static_cast<float>(std::max({height, width / double{fit.aspect}, 1e-3 * radius}) / double{fit.fill});
+  } else {
+    distance = std::max({0.5 * width / lean[0], 0.5 * height / lean[1], nearest + 1e-2 * radius});
+  }
+  const DVec3 shift = axes[0] * (0.5 * (low[0] + high[0])) + axes[1] * (0.5 * (low[1] + high[1]));
+  camera.target = Vec3(middle + shift);
+  camera.eye = Vec3(middle + shift + axes[2] * distance);
+  camera.near_distance = static_cast<float>(std::max(distance - nearest - 0.01 * radius, 1e-3 * distance));
+  camera.far_distance = static_cast<float>(distance - farthest + 0.01 * radius);
+  return camera;
 }
 
 }  // namespace limn

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "limn/base/bounds.h"
 #include "limn/base/vec.h"
 
@@ -38,5 +40,13 @@ Camera fit_camera(const Bounds& bounds, float azimuth_rad, float elevation_rad, 
 
 /// As above, from a direction towards the viewer. \pre direction is of unit length
 Camera fit_camera(const Bounds& bounds, const Vec3& direction, const CameraFit& fit = {});
+
+/// As above, but as near as the points themselves allow: their picture spans `fill` of the width or of the height and
+/// no more of the other, and lies in the middle of it. `target` is the middle of what is seen; near and far enclose the
+/// points. Cost: two passes over the points. \pre there is a point; all are finite
+Camera fit_camera(std::span<const Vec3> points, const Vec3& direction, const CameraFit& fit = {});
+
+/// The unit direction towards a viewer at this azimuth and elevation, as fit_camera takes them.
+Vec3 view_direction(float azimuth_rad, float elevation_rad);
 
 }  // namespace limn
