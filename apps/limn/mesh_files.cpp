@@ -111,28 +111,6 @@ Result<void> save(Session& session, const Mesh& mesh, const OutputOptions& optio
   return write_mesh(mesh, options.path, exported);
 }
 
-std::string_view format_name(MeshFormat format) {
-  switch (format) {
-    case MeshFormat::kPly:
-      return "PLY";
-    case MeshFormat::kStl:
-      return "STL";
-    case MeshFormat::kOff:
-      return "OFF";
-    case MeshFormat::kObj:
-      return "OBJ";
-    case MeshFormat::kGltf:
-      return "glTF";
-    case MeshFormat::kGlb:
-      return "GLB";
-    case MeshFormat::kOther:
-      return "other";
-    case MeshFormat::kUnknown:
-      return "unknown";
-  }
-  return "";
-}
-
 std::string counted(std::size_t count, std::string_view noun) {
   const std::string plain = fmt::format("{}", count);
   std::string digits;

@@ -53,9 +53,6 @@ Result<void> save(Session& session, const Mesh& mesh, const OutputOptions& optio
 /// check_output for a file that is no mesh. \param extension what its name must end in (".png")
 Result<void> check_picture_output(const Session& session, const std::string& path, std::string_view extension);
 
-/// "PLY", "OBJ", …
-std::string_view format_name(MeshFormat format);
-
 /// "1 triangle", "2 triangles", with thousands apart: "69,666 triangles".
 std::string counted(std::size_t count, std::string_view noun);
 

@@ -9,8 +9,8 @@
 
 #include "limn/base/parallel.h"
 #include "limn/base/random.h"
-#include "limn/mesh/shapes_asteroid.h"
-#include "limn/mesh/shapes_noise.h"
+#include "limn/mesh/shapes/asteroid.h"
+#include "limn/mesh/shapes/noise.h"
 #include "limn/mesh/topology.h"
 #include "limn/mesh/validate.h"
 

@@ -16,28 +16,6 @@ namespace {
 
 using formats::Source;
 
-std::string_view name_of(MeshFormat format) {
-  switch (format) {
-    case MeshFormat::kPly:
-      return "PLY";
-    case MeshFormat::kStl:
-      return "STL";
-    case MeshFormat::kOff:
-      return "OFF";
-    case MeshFormat::kObj:
-      return "OBJ";
-    case MeshFormat::kGltf:
-      return "glTF";
-    case MeshFormat::kGlb:
-      return "GLB";
-    case MeshFormat::kOther:
-      return "another format";
-    case MeshFormat::kUnknown:
-      break;
-  }
-  return "an unknown format";
-}
-
 bool looks_like_off(std::string_view word) {
   const std::size_t off = word.find("OFF");
   return off != std::string_view::npos && word.substr(0, off).find_first_not_of("STCN4n") == std::string_view::npos;
@@ -118,13 +96,35 @@ Result<ImportedMesh> read_source(const Source& source, MeshFormat told) {
   const bool gltf = (seen == MeshFormat::kGltf || seen == MeshFormat::kGlb) &&
                     (told == MeshFormat::kGltf || told == MeshFormat::kGlb);
   if (!open && !gltf && seen != told && seen != MeshFormat::kUnknown && error.code == ErrorCode::kUnreadable) {
-    error.remedy = "it was read as " + std::string(name_of(told)) + " but looks like " + std::string(name_of(seen)) +
-                   ": rename it or name its format";
+    error.remedy = "it was read as " + std::string(format_name(told)) + " but looks like " +
+                   std::string(format_name(seen)) + ": rename it or name its format";
   }
   return imported;
 }
 
 }  // namespace
+
+std::string_view format_name(MeshFormat format) {
+  switch (format) {
+    case MeshFormat::kPly:
+      return "PLY";
+    case MeshFormat::kStl:
+      return "STL";
+    case MeshFormat::kOff:
+      return "OFF";
+    case MeshFormat::kObj:
+      return "OBJ";
+    case MeshFormat::kGltf:
+      return "glTF";
+    case MeshFormat::kGlb:
+      return "GLB";
+    case MeshFormat::kOther:
+      return "another format";
+    case MeshFormat::kUnknown:
+      break;
+  }
+  return "an unknown format";
+}
 
 MeshFormat format_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();

@@ -18,6 +18,9 @@ enum class MeshFormat { kUnknown, kPly, kStl, kOff, kObj, kGltf, kGlb, kOther };
 /// The format a file name's extension stands for, in any case; kUnknown without one.
 MeshFormat format_of(const std::filesystem::path& path);
 
+/// What people call it: "PLY", "glTF"; "another format" and "an unknown format" for the last two.
+std::string_view format_name(MeshFormat format);
+
 struct ImportOptions {
   MeshFormat format = MeshFormat::kUnknown;  ///< kUnknown: told by extension, then by content ("-" has only content)
   Progress progress{};

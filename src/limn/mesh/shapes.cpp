@@ -6,7 +6,7 @@
 #include <new>
 #include <string>
 
-#include "limn/mesh/shapes_builders.h"
+#include "limn/mesh/shapes/builders.h"
 
 namespace limn {
 namespace {

@@ -2,9 +2,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "limn/mesh/shapes_builders.h"
-#include "limn/mesh/shapes_grid.h"
-#include "limn/mesh/shapes_noise.h"
+#include "limn/mesh/shapes/builders.h"
+#include "limn/mesh/shapes/grid.h"
+#include "limn/mesh/shapes/noise.h"
 
 namespace limn::procedural {
 namespace {

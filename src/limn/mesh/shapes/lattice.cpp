@@ -1,4 +1,4 @@
-#include "limn/mesh/shapes_lattice.h"
+#include "limn/mesh/shapes/lattice.h"
 
 #include <algorithm>
 #include <utility>

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "limn/base/parallel.h"
-#include "limn/mesh/shapes_builders.h"
-#include "limn/mesh/shapes_lattice.h"
-#include "limn/mesh/shapes_noise.h"
+#include "limn/mesh/shapes/builders.h"
+#include "limn/mesh/shapes/lattice.h"
+#include "limn/mesh/shapes/noise.h"
 
 /// The three-holed torus: three rings side by side in the xy plane, melted together where they touch. Its surface is
 /// found as a surface net (one vertex a grid cell, one quad a grid edge that crosses the surface), evened out, and

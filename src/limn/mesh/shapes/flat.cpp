@@ -2,8 +2,8 @@
 #include <array>
 
 #include "limn/base/parallel.h"
-#include "limn/mesh/shapes_builders.h"
-#include "limn/mesh/shapes_lattice.h"
+#include "limn/mesh/shapes/builders.h"
+#include "limn/mesh/shapes/lattice.h"
 
 namespace limn::procedural {
 namespace {

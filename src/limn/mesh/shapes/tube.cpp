@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "limn/mesh/shapes_builders.h"
-#include "limn/mesh/shapes_grid.h"
+#include "limn/mesh/shapes/builders.h"
+#include "limn/mesh/shapes/grid.h"
 
 namespace limn::procedural {
 namespace {

@@ -1,4 +1,4 @@
-#include "limn/mesh/shapes_asteroid.h"
+#include "limn/mesh/shapes/asteroid.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "limn/mesh/shapes_grid.h"
-#include "limn/mesh/shapes_noise.h"
+#include "limn/mesh/shapes/grid.h"
+#include "limn/mesh/shapes/noise.h"
 
 namespace limn::procedural {
 

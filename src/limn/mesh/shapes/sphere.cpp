@@ -5,9 +5,9 @@
 #include <numbers>
 #include <vector>
 
-#include "limn/mesh/shapes_asteroid.h"
-#include "limn/mesh/shapes_builders.h"
-#include "limn/mesh/shapes_lattice.h"
+#include "limn/mesh/shapes/asteroid.h"
+#include "limn/mesh/shapes/builders.h"
+#include "limn/mesh/shapes/lattice.h"
 
 namespace limn::procedural {
 namespace {

@@ -1,4 +1,4 @@
-#include "limn/mesh/shapes_grid.h"
+#include "limn/mesh/shapes/grid.h"
 
 #include <algorithm>
 #include <cmath>

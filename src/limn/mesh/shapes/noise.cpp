@@ -1,4 +1,4 @@
-#include "limn/mesh/shapes_noise.h"
+#include "limn/mesh/shapes/noise.h"
 
 #include <cmath>
 namespace limn::procedural {
