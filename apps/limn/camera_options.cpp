@@ -20,9 +20,14 @@ Result<double> parse_fov(std::string_view text) {
   return parse_number(text, {kSmallestFov, kLargestFov, false, false});
 }
 
+/// A single point is looked at as if it were one unit wide.
+double size_of(const Bounds& bounds) {
+  return bounds.diagonal() > 0.0 ? bounds.diagonal() : 1.0;
+}
+
 /// Near and far around a sphere; near stays a small share of far, where depth still has digits.
 void enclose(Camera& camera, const Bounds& bounds) {
-  const double radius = std::max(bounds.diagonal() * 0.5, 1e-6);
+  const double radius = 0.5 * size_of(bounds);
   const DVec3 forward = glm::normalize(DVec3(camera.target) - DVec3(camera.eye));
   const double middle = glm::dot(DVec3(bounds.center()) - DVec3(camera.eye), forward);
   const double far = std::max(middle + radius, radius) * 1.01;
@@ -33,8 +38,7 @@ void enclose(Camera& camera, const Bounds& bounds) {
 /// A parallel projection looks from outside the mesh, wherever along the line of sight the eye was given.
 void step_back(Camera& camera, const Bounds& bounds) {
   const DVec3 away = glm::normalize(DVec3(camera.eye) - DVec3(camera.target));
-  const double distance =
-      glm::length(DVec3(bounds.center()) - DVec3(camera.target)) + std::max(bounds.diagonal(), 1e-6);
+  const double distance = glm::length(DVec3(bounds.center()) - DVec3(camera.target)) + size_of(bounds);
   camera.eye = Vec3(DVec3(camera.target) + away * distance);
 }
 

@@ -63,9 +63,12 @@ ordered_json info_json(const InfoOptions& options, const LoadedMesh& loaded, con
 }
 
 std::string surface_line(const MeshReport& report) {
-  std::string line = report.closed ? fmt::format("closed, volume {:.6g}", report.volume)
-                                   : fmt::format("open, {} in {}", counted(report.boundary_edges, "boundary edge"),
-                                                 counted(report.boundary_loops, "loop"));
+  std::string line = "not a surface of two faces an edge";  // neither: only edges that are flipped or crowded
+  if (report.closed) line = fmt::format("closed, volume {:.6g}", report.volume);
+  if (report.boundary_edges > 0) {
+    line = fmt::format("open, {} in {}", counted(report.boundary_edges, "boundary edge"),
+                       counted(report.boundary_loops, "loop"));
+  }
   return fmt::format("{}, area {:.6g}, {}, Euler characteristic {}", line, report.area,
                      counted(report.components, "component"), report.euler_characteristic);
 }
@@ -106,8 +109,7 @@ std::string info_text(const InfoOptions& options, const LoadedMesh& loaded, cons
   } else {
     const Vec3 &low = report.bounds.low, &high = report.bounds.high;
     text += fmt::format("{:<13}{}\n", "surface", surface_line(report));
-    text += fmt::format("{:<13}{:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n", "bounds", low.x, low.y, low.z, high.x,
-                        high.y, high.z);
+    text += fmt::format("{:<13}{},{},{} to {},{},{}\n", "bounds", low.x, low.y, low.z, high.x, high.y, high.z);
   }
   text += fmt::format("{:<13}{}\n", "attributes", attributes_line(report)) + defects(report);
   for (const Suitability& one : suitability(report)) {

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::uint64_t kMostFaces = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMostFaces = 100'000'000;
 
 struct MakeOptions {
   std::string shape;

@@ -88,7 +88,7 @@ Result<int> run(Session& session, const RefineFlags& flags) {
   }
   const auto begun = std::chrono::steady_clock::now();
   const Result<Refinement> refined = refine(loaded->mesh, view, refine_options(flags.levels, session.progress()));
-  if (!refined) return tl::unexpected(refined.error());
+  if (!refined) return tl::unexpected(about(refined.error(), flags.input.path));
   const double time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
   return save(session, refined->mesh, flags.output)
       .and_then([&] { return report(session, flags, *loaded, *refined, time_ms); })

@@ -9,6 +9,7 @@
 
 #include "camera_options.h"
 #include "drawn_lines.h"
+#include "interrupt.h"
 #include "level_options.h"
 #include "mesh_files.h"
 #include "verb.h"
@@ -55,10 +56,12 @@ Result<Scene> build_scene(Session& session, const RenderFlags& flags, const Mesh
   if (flags.refined || flags.level_lines) {
     const RefineOptions options = refine_options(flags.levels, session.progress());
     const Result<Refiner> refiner = Refiner::create(mesh, options);
-    if (!refiner) return tl::unexpected(refiner.error());
+    if (!refiner) return tl::unexpected(about(refiner.error(), flags.input.path));
     Result<Refinement> refined = refiner->refine(view_of(*camera, flags.size.height), options.levels);
-    if (!refined) return tl::unexpected(refined.error());
-    if (flags.level_lines) append_level_lines(*refiner, *refined, flags.levels.max_level, flags.refined, scene.lines);
+    if (!refined) return tl::unexpected(about(refined.error(), flags.input.path));
+    if (flags.level_lines)
+      append_level_lines(*refiner, *refined, options.levels.max_level,
+                         flags.refined ? std::optional(options.blend) : std::nullopt, scene.lines);
     if (flags.refined) scene.mesh = std::move(refined->mesh);
   }
   if (flags.outline) append_outline(scene.mesh, scene.camera, ink(flags.options.background), scene.lines);
@@ -101,7 +104,10 @@ Result<int> run(Session& session, const RenderFlags& flags) {
   if (!image) return tl::unexpected(image.error());
   const double time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
   return session.check_stop()
-      .and_then([&] { return write_png(*image, flags.output); })
+      .and_then([&] {
+        const Unstoppable writing;
+        return write_png(*image, flags.output);
+      })
       .and_then([&] { return report(session, flags, *loaded, *scene, **context, time_ms); })
       .map([] { return kExitDone; });
 }

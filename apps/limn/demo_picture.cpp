@@ -9,6 +9,7 @@
 #include "limn/render/render.h"
 
 #include "drawn_lines.h"
+#include "interrupt.h"
 #endif
 
 namespace limn::cli {
@@ -34,6 +35,7 @@ Result<std::vector<double>> draw_demo(std::span<const Mesh* const> meshes, const
     times_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count());
     panels.push_back(std::move(*panel));
   }
+  const Unstoppable writing;
   return write_png(side_by_side(panels), path).map([&] { return times_ms; });
 }
 

@@ -23,21 +23,21 @@ void append_outline(const Mesh& mesh, const Camera& camera, const Vec3& color, s
     append_edge(mesh, topology.edges[edge], color, lines);
 }
 
-void append_level_lines(const Refiner& refiner, const Refinement& refined, int max_level, bool curved,
+void append_level_lines(const Refiner& refiner, const Refinement& refined, int max_level, std::optional<Blend> blend,
                         std::vector<Segment3>& lines) {
   const Mesh& mesh = refiner.mesh();
   const std::vector<Edge>& edges = refiner.topology().edges;
+  std::vector<Vec3> curve, surface;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const float level = refined.edge_levels[e];
     const Vec3 color = level_color(level, static_cast<float>(max_level));
-    const int m = curved ? static_cast<int>(std::ceil(level)) : 0;
-    const Vec3 &first = mesh.positions[edges[e].v[0]], &last = mesh.positions[edges[e].v[1]];
-    Vec3 from = first;
-    for (int k = 1; k <= 1 << m; ++k) {
-      const Vec3 to = evaluate_curve(first, refiner.curves()[e], last, k, m);
-      lines.push_back({from, to, color});
-      from = to;
-    }
+    const int m = blend ? static_cast<int>(std::ceil(level)) : 0;
+    curve.resize((std::size_t{1} << m) + 1);
+    surface.resize(curve.size());
+    sample_edge(mesh.positions[edges[e].v[0]], refiner.curves()[e], mesh.positions[edges[e].v[1]], blend ? level : 0.0f,
+                m, blend.value_or(Blend::kSurplus), curve, surface);
+    for (std::size_t k = 1; k < surface.size(); ++k)
+      lines.push_back({surface[k - 1], surface[k], color});
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "limn/base/camera.h"
@@ -12,8 +13,8 @@ namespace limn::cli {
 void append_outline(const Mesh& mesh, const Camera& camera, const Vec3& color, std::vector<Segment3>& lines);
 
 /// Appends every edge of the unrefined mesh, coloured by its level.
-/// \param curved  along the refined surface, else straight
-void append_level_lines(const Refiner& refiner, const Refinement& refined, int max_level, bool curved,
+/// \param blend  along the surface refined with it; none: straight
+void append_level_lines(const Refiner& refiner, const Refinement& refined, int max_level, std::optional<Blend> blend,
                         std::vector<Segment3>& lines);
 
 }  // namespace limn::cli

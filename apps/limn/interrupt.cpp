@@ -10,10 +10,27 @@ namespace limn::cli {
 namespace {
 
 volatile std::sig_atomic_t stopped_by = 0;
+volatile std::sig_atomic_t writing = 0;
+
+/// How long work may take to notice that it is to stop, before the program ends without it.
+constexpr unsigned kPatience_s = 1;
 
 void on_signal(int signal) {
   if (stopped_by != 0) ::_exit(128 + signal);
   stopped_by = signal;
+  ::alarm(kPatience_s);
+}
+
+/// Work that does not look (a read that waits, a driver that draws) is left as it stands: only a file being written
+/// must not be left half done.
+void on_alarm(int) {
+  if (writing != 0) {
+    ::alarm(kPatience_s);
+    return;
+  }
+  constexpr char kWords[] = "\nlimn: interrupted; nothing was written\n";
+  if (::write(STDERR_FILENO, kWords, sizeof kWords - 1) < 0) ::_exit(128 + stopped_by);
+  ::_exit(128 + stopped_by);
 }
 
 /// A standard stream the caller closed would be taken by the next file opened, which messages would then be written
@@ -36,8 +53,18 @@ void install_signal_handlers() {
   ::sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  action.sa_handler = on_alarm;
+  ::sigaction(SIGALRM, &action, nullptr);
   action.sa_handler = SIG_IGN;
   ::sigaction(SIGPIPE, &action, nullptr);
+}
+
+Unstoppable::Unstoppable() {
+  writing = 1;
+}
+
+Unstoppable::~Unstoppable() {
+  writing = 0;
 }
 
 int stop_signal() {

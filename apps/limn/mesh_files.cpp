@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "limn/mesh/repair.h"
+
+#include "interrupt.h"
 
 namespace limn::cli {
 namespace {
@@ -27,6 +30,13 @@ Result<void> check_folder(const std::string& path) {
   }
   if (std::filesystem::is_directory(path, ignored)) {
     return fail_at(ErrorCode::kUnwritable, path, {}, "is a directory", "name a file in it");
+  }
+  // What is no regular file (a device, a pipe) is written into; anything else is put beside its place and renamed.
+  const bool special = std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
+  const std::string written = special ? path : folder.empty() ? "." : folder.string();
+  if (::access(written.c_str(), W_OK) != 0) {
+    return fail_at(ErrorCode::kUnwritable, path, {}, special ? "may not be written" : "its folder may not be written",
+                   "choose another place");
   }
   return {};
 }
@@ -102,12 +112,18 @@ Result<void> check_picture_output(const Session& session, const std::string& pat
   return check_folder(path);
 }
 
+Error about(Error error, const std::string& path) {
+  if (error.code == ErrorCode::kUnsuitable && error.file.empty()) error.file = path == "-" ? "standard input" : path;
+  return error;
+}
+
 Result<void> save(Session& session, const Mesh& mesh, const OutputOptions& options) {
   if (Result<void> going = session.check_stop(); !going) return going;
   ExportOptions exported;
   exported.format = options.format;
   exported.ascii = options.ascii;
   exported.progress = session.progress();
+  const Unstoppable writing;
   return write_mesh(mesh, options.path, exported);
 }
 

@@ -50,6 +50,9 @@ Result<LoadedMesh> load_with_faces(Session& session, const InputOptions& options
 Result<void> check_output(const Session& session, const OutputOptions& options);
 Result<void> save(Session& session, const Mesh& mesh, const OutputOptions& options);
 
+/// The error, naming the input it is about where it is a mesh's fault.
+Error about(Error error, const std::string& path);
+
 /// check_output for a file that is no mesh. \param extension what its name must end in (".png")
 Result<void> check_picture_output(const Session& session, const std::string& path, std::string_view extension);
 

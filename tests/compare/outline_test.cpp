@@ -248,5 +248,14 @@ TEST(CompareMeshes, RefusesWhatItCannotMeasure) {
   EXPECT_EQ(compare_meshes(failing, mesh, {.views = 1, .size_px = 16}).error().message, "no");
 }
 
+TEST(CompareMeshes, RefusesWhatNoCameraCanStandOutsideOf) {
+  Mesh mesh;
+  mesh.positions = {{-3e38f, 0, 0}, {3e38f, 0, 0}, {0, 3e38f, 0}};
+  mesh.faces = {{0, 1, 2}};
+  const auto comparison = compare_meshes(mesh, mesh, {.views = 2, .size_px = 64});
+  ASSERT_FALSE(comparison);
+  EXPECT_EQ(comparison.error().code, ErrorCode::kUnsuitable);
+}
+
 }  // namespace
 }  // namespace limn

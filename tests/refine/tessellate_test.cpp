@@ -230,13 +230,33 @@ TEST(Refine, RefusesWhatItCannotDoAndSaysWhy) {
   ASSERT_FALSE(too_many);
   EXPECT_EQ(too_many.error().code, ErrorCode::kUnsuitable);
   EXPECT_NE(too_many.error().message.find("more than 1000"), std::string::npos);
-  options.max_triangles = 200'000'000;
+  options.max_triangles = 100'000'000;
   options.levels.max_level = 2;
   options.progress = [](std::string_view stage, double) { return stage != "tessellate"; };
   EXPECT_EQ(refine(mesh, {}, options).error().code, ErrorCode::kCancelled);
   options = {};
   options.crease_angle_rad = NAN;
   EXPECT_EQ(refine(mesh, {}, options).error().code, ErrorCode::kInvalidArgument);
+}
+
+TEST(Refine, RefusesCoordinatesAndTagsThatWouldNotStayFinite) {
+  Mesh mesh = shape(Shape::kTetrahedron, 4);
+  for (Vec3& p : mesh.positions)
+    p *= 2e38f;
+  EXPECT_EQ(refine(mesh, {}, {.levels = {.criterion = Criterion::kUniform}}).error().code, ErrorCode::kUnsuitable);
+  mesh = shape(Shape::kTetrahedron, 4);
+  mesh.tags.assign(mesh.positions.size(), NAN);
+  EXPECT_EQ(refine(mesh, {}, {.levels = {.criterion = Criterion::kTags}}).error().code, ErrorCode::kUnsuitable);
+  mesh = {};
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  mesh.faces = {{0, 1, 2}};
+  EXPECT_EQ(refine(mesh, {}).error().code, ErrorCode::kUnsuitable);
+}
+
+TEST(Tessellate, OfNothingIsNothing) {
+  Mesh mesh;
+  mesh.normals.values = {Vec3(0, 0, 1)};
+  EXPECT_EQ(tessellate(mesh, build_topology(mesh), {}, {}).value().mesh.faces.size(), 0u);
 }
 
 TEST(Refine, RefinesTheOutlineAndLittleElse) {

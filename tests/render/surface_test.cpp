@@ -153,6 +153,20 @@ TEST_F(Surface, FarFromTheOriginThePictureIsTheSame) {
   EXPECT_EQ(draw(here, camera, options).rgba, draw(there, moved, options).rgba);
 }
 
+TEST_F(Surface, TinyAndHugeModelsLookLikeThoseOfUnitSize) {
+  const auto knot = make_shape(Shape::kKnot, {1000, 1});
+  ASSERT_TRUE(knot);
+  const RenderOptions options = picture_options(96, 96, 4, kTransparent);
+  const Image expected = draw(*knot, fit_camera(face_bounds(*knot), 0.5f, 0.5f), options);
+  for (const int exponent : {-100, -30, 40, 100}) {
+    Mesh scaled = *knot;
+    for (Vec3& p : scaled.positions)
+      p *= std::ldexp(1.0f, exponent);
+    const Image seen = draw(scaled, fit_camera(face_bounds(scaled), 0.5f, 0.5f), options);
+    EXPECT_LT(compare_images(seen, expected, 8).failing_share, 0.005) << "2^" << exponent;
+  }
+}
+
 TEST_F(Surface, TheSamePictureTwiceHasTheSameBits) {
   const auto torus = make_shape(Shape::kTorus, {2000, 1});
   ASSERT_TRUE(torus);

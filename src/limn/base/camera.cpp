@@ -11,13 +11,15 @@
 namespace limn {
 
 Mat4 view_matrix(const Camera& camera) {
-  const Vec3 forward = glm::normalize(camera.target - camera.eye);
-  Vec3 up = camera.up;
-  const float up_length = glm::length(up);
-  if (up_length == 0.0f || std::abs(glm::dot(forward, up)) > 0.9999f * up_length) {
-    up = std::abs(forward.y) > 0.9f ? Vec3(0, 0, forward.y > 0 ? 1 : -1) : Vec3(0, 1, 0);
+  // In double: the squares of a large model's coordinates are beyond float.
+  const DVec3 eye = camera.eye;
+  const DVec3 forward = glm::normalize(DVec3(camera.target) - eye);
+  DVec3 up = camera.up;
+  const double up_length = glm::length(up);
+  if (up_length == 0.0 || std::abs(glm::dot(forward, up)) > 0.9999 * up_length) {
+    up = std::abs(forward.y) > 0.9 ? DVec3(0, 0, forward.y > 0 ? 1 : -1) : DVec3(0, 1, 0);
   }
-  return glm::lookAt(camera.eye, camera.target, up);
+  return Mat4(glm::lookAt(eye, eye + forward * std::max(1.0, glm::length(eye)), up));
 }
 
 Mat4 projection_matrix(const Camera& camera, float aspect) {

@@ -92,6 +92,10 @@ Result<Comparison> compare_views(const std::function<Result<Coverage>(const Came
     }
     const Vec3 direction = random.direction();
     const Camera camera = fit_camera(bounds, direction, fit);
+    if (!is_finite(camera.eye) || !std::isfinite(camera.ortho_height) || !std::isfinite(camera.far_distance)) {
+      return fail(ErrorCode::kUnsuitable, "the reference is too large for a camera to stand outside of it",
+                  "scale both meshes down");
+    }
     const Result<Coverage> seen = candidate(camera);
     if (!seen) return tl::unexpected(seen.error());
     const Coverage wanted = rasterize_coverage(reference, camera, options.size_px, options.size_px);

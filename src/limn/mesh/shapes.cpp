@@ -11,7 +11,7 @@
 namespace limn {
 namespace {
 
-constexpr std::size_t kMaxFaces = std::size_t{1} << 30;
+constexpr std::size_t kMaxFaces = 100'000'000;
 
 constexpr std::array<ShapeInfo, 9> kShapes{{
     {Shape::kTetrahedron, "tetrahedron", "four flat triangles, hard edges"},

@@ -27,7 +27,7 @@ std::span<const ShapeInfo> shapes();
 
 /// Makes a shape. Closed shapes are watertight by position; the cube has hard edges (normals split), the torus, knot
 /// and icosphere have texture seams. Same options, same bits.
-/// Errors: kInvalidArgument when `faces` is beyond 2^30 or below the shape's smallest.
+/// Errors: kInvalidArgument when `faces` is beyond 100 million (about 12 GB) or below the shape's smallest.
 Result<Mesh> make_shape(Shape shape, const ShapeOptions& options = {});
 
 }  // namespace limn

@@ -94,7 +94,10 @@ template <class T>
 std::size_t AttributeTessellator<T>::slot(EdgeId edge, FaceId face) const {
   if (shared_[edge]) return 0;
   const std::span<const FaceId> faces = topology_.edge_faces(edge);
-  return static_cast<std::size_t>(std::find(faces.begin(), faces.end(), face) - faces.begin());
+  // Three faces or more are listed in ascending order (Topology::edge_faces).
+  if (faces.size() > 2)
+    return static_cast<std::size_t>(std::lower_bound(faces.begin(), faces.end(), face) - faces.begin());
+  return faces[0] == face ? 0 : 1;
 }
 
 template <class T>

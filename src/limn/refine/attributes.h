@@ -20,14 +20,13 @@ namespace limn {
 template <class T>
 class AttributeTessellator {
  public:
-  /// \param segments  2^t of each edge; \param interior_offsets  vertices inside all faces before each, one more than
-  /// faces
+  /// \param edge_levels  t of each edge, which has 2^t segments; \param interior_offsets  vertices inside all faces
+  /// before each, one more than faces
   AttributeTessellator(const Mesh& mesh, const Topology& topology, const CornerAttribute<T>& input,
                        std::span<const std::uint8_t> edge_levels, std::span<const std::uint64_t> interior_offsets,
                        std::size_t output_faces);
 
   bool empty() const { return input_.empty(); }
-  std::size_t value_count() const { return output_.values.size(); }
 
   void fill_edge(EdgeId edge);
   void fill_interior(FaceId face, const Grid& grid);

@@ -108,6 +108,10 @@ Result<void> check(const Mesh& mesh, const View& view, const LevelOptions& optio
       return invalid("near and far distances are out of order", "choose 0 < near < far");
     }
   }
+  if (options.criterion == Criterion::kTags &&
+      std::any_of(mesh.tags.begin(), mesh.tags.end(), [](float tag) { return std::isnan(tag); })) {
+    return fail(ErrorCode::kUnsuitable, "a vertex tag is not a number", "give every vertex a number");
+  }
   if (options.criterion == Criterion::kTags && mesh.tags.size() != mesh.positions.size()) {
     return fail(ErrorCode::kUnsuitable, "the mesh has no vertex tags",
                 "give every vertex a property 'tag' in a PLY file, or choose another criterion");

@@ -1,11 +1,25 @@
 #include "limn/refine/refine.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "limn/mesh/normals.h"
 
 namespace limn {
+namespace {
+
+/// Sums of control points must stay finite.
+Result<void> check_extent(const Mesh& mesh) {
+  constexpr float kLargest = 1e37f;
+  const Bounds bounds = face_bounds(mesh);
+  const Vec3 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+  if (std::max({largest.x, largest.y, largest.z}) <= kLargest) return {};
+  return fail(ErrorCode::kUnsuitable, "coordinates beyond 1e37 leave no room for curves", "scale the mesh down");
+}
+
+}  // namespace
 
 Result<Refiner> Refiner::create(Mesh mesh, const RefineOptions& options) {
   if (mesh.faces.empty()) {
@@ -22,8 +36,13 @@ Result<Refiner> Refiner::create(Mesh mesh, const RefineOptions& options) {
   if (refiner.topology_.edges.empty()) {
     return fail(ErrorCode::kUnsuitable, "every face of the mesh is degenerate", "give a mesh whose faces have area");
   }
+  if (const Result<void> fit = check_extent(refiner.mesh_); !fit) return tl::unexpected(fit.error());
   if (!report(options.progress, "curves", 0.0)) return fail(ErrorCode::kCancelled, "cancelled");
   refiner.face_normals_ = face_normals(refiner.mesh_);
+  if (std::all_of(refiner.face_normals_.begin(), refiner.face_normals_.end(),
+                  [](const Vec3& n) { return n == Vec3(0); })) {
+    return fail(ErrorCode::kUnsuitable, "no face of the mesh has area", "give a mesh whose faces have area");
+  }
   if (options.recompute_normals || refiner.mesh_.normals.empty()) {
     refiner.mesh_.normals = crease_normals(refiner.mesh_, refiner.topology_, options.crease_angle_rad);
   }

@@ -18,7 +18,7 @@ struct RefineOptions {
   /// Normals are computed, split at edges sharper than this, when the mesh brings none; NaN-free, in [0, π].
   float crease_angle_rad = 1.0471976f;
   bool recompute_normals = false;  ///< even when the mesh brings some
-  std::size_t max_triangles = 200'000'000;
+  std::size_t max_triangles = 100'000'000;
   Progress progress{};
 };
 
@@ -27,8 +27,8 @@ struct RefineOptions {
 /// The result is bitwise watertight where the input is closed: every vertex on a shared edge is one point, stored once;
 /// no T-junctions; the input's winding. Normals vary quadratically, texture coordinates and colours linearly; tags are
 /// used up. Same bits for any
-/// number of threads. Errors: kUnsuitable (no faces, or more than max_triangles would result), kInvalidArgument,
-/// kCancelled.
+/// number of threads. Errors: kUnsuitable (no faces, none with area, coordinates beyond 1e37, or more than
+/// max_triangles would result), kInvalidArgument, kCancelled.
 Result<Refinement> refine(const Mesh& mesh, const View& view, const RefineOptions& options = {});
 
 /// What refine() computes from the mesh alone, kept for many views of one mesh.

@@ -150,7 +150,8 @@ class Tessellator {
 
 /// Fills edges and corners first, then the faces' insides, which read them.
 Result<Refinement> Tessellator::run() {
-  const int deepest = *std::max_element(plan_.face_level.begin(), plan_.face_level.end());
+  const int deepest =
+      plan_.face_level.empty() ? 0 : *std::max_element(plan_.face_level.begin(), plan_.face_level.end());
   for (int m = 0; m <= deepest; ++m)
     grids_.push_back(make_grid(m));
   out_.mesh.positions.resize(plan_.vertices());
@@ -350,8 +351,8 @@ Result<Refinement> tessellate(const Mesh& mesh, const Topology& topology, std::s
   assert(!mesh.normals.empty());
   assert(curves.size() == topology.edge_count() && levels.size() == topology.edge_count());
   Plan plan = make_plan(topology, levels);
-  // Corners of the result are numbered with 32 bits; so is everything there is fewer of.
-  const std::uint64_t most = std::min<std::uint64_t>(options.max_triangles, kInvalidId / 3 - 3 * topology.face_count());
+  // Values of attributes are numbered with 32 bits: three a triangle of the input and three of the result at most.
+  const std::uint64_t most = std::min<std::uint64_t>(options.max_triangles, kInvalidId / 6);
   if (plan.triangles.back() > most) {
     return fail(ErrorCode::kUnsuitable,
                 fmt::format("refinement would give {} triangles, more than {}", plan.triangles.back(), most),

@@ -15,7 +15,7 @@ namespace limn {
 struct TessellateOptions {
   Blend blend = Blend::kSurplus;
   CenterRule center = CenterRule::kPn;
-  std::size_t max_triangles = 200'000'000;
+  std::size_t max_triangles = 100'000'000;
   Progress progress;
 };
 

@@ -110,7 +110,7 @@ void attach(const gl::VertexArray& array, gl::Buffer& buffer, std::span<const T>
 
 }  // namespace
 
-Result<GpuMesh> GpuMesh::upload(const Mesh& mesh) {
+Result<GpuMesh> GpuMesh::upload(const Mesh& mesh, std::span<const Vec3> points) {
   gl::take_out_of_memory();
   GpuMesh gpu;
   gpu.has_normals_ = !mesh.normals.empty();
@@ -118,12 +118,12 @@ Result<GpuMesh> GpuMesh::upload(const Mesh& mesh) {
   std::span<const Triangle> faces = mesh.faces;
   std::vector<Triangle> expanded, ordered;
   if (by_vertex(mesh.normals) && by_vertex(mesh.uvs) && by_vertex(mesh.colors)) {
-    attach(gpu.array_, gpu.positions_, std::span<const Vec3>(mesh.positions), 0);
+    attach(gpu.array_, gpu.positions_, points, 0);
     attach(gpu.array_, gpu.normals_, std::span<const Vec3>(mesh.normals.values), 1);
     attach(gpu.array_, gpu.uvs_, std::span<const Vec2>(mesh.uvs.values), 2);
     attach(gpu.array_, gpu.colors_, std::span<const Vec4>(mesh.colors.values), 3);
   } else {
-    const CornerAttribute<Vec3> positions{mesh.positions, {}};
+    const CornerAttribute<Vec3> positions{{points.begin(), points.end()}, {}};
     attach(gpu.array_, gpu.positions_, std::span<const Vec3>(by_corner(mesh, positions)), 0);
     attach(gpu.array_, gpu.normals_, std::span<const Vec3>(by_corner(mesh, mesh.normals)), 1);
     attach(gpu.array_, gpu.uvs_, std::span<const Vec2>(by_corner(mesh, mesh.uvs)), 2);

@@ -13,7 +13,7 @@ class GpuMesh {
  public:
   /// Needs a current context. Errors: kNoGraphics when the device cannot hold it; kUnsuitable when a material's picture
   /// cannot be decoded.
-  static Result<GpuMesh> upload(const Mesh& mesh);
+  static Result<GpuMesh> upload(const Mesh& mesh, std::span<const Vec3> points);
 
   /// A run of faces of one material.
   struct Batch {

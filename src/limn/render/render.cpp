@@ -95,9 +95,9 @@ void draw_batches(const GpuMesh& gpu, const Mesh& mesh, const gl::Program& progr
   }
 }
 
-Result<void> draw_faces(gl::Context& context, const Mesh& mesh, const ShaderCamera& camera,
-                        const RenderOptions& options) {
-  const auto gpu = GpuMesh::upload(mesh);
+Result<void> draw_faces(gl::Context& context, const Mesh& mesh, std::span<const Vec3> points,
+                        const ShaderCamera& camera, const RenderOptions& options) {
+  const auto gpu = GpuMesh::upload(mesh, points);
   if (!gpu) return tl::unexpected(gpu.error());
   gl::ProgramFiles files{"face.vert.glsl", "", "face.frag.glsl", {}};
   if (options.wireframe) {
@@ -156,6 +156,38 @@ Result<void> draw_segments(gl::Context& context, std::span<const Segment3> segme
   return {};
 }
 
+/// The scene as the device sees it. Squares and products in a shader are floats: a model in kilometres or nanometres
+/// has to come near unit size before it is drawn. By a power of two, which changes no digit.
+struct UnitScene {
+  Camera camera;
+  std::span<const Vec3> points;
+  std::span<const Segment3> segments;
+  std::vector<Vec3> moved_points;
+  std::vector<Segment3> moved_segments;
+};
+
+UnitScene bring_to_unit_scale(const Mesh& mesh, const Camera& camera, std::span<const Segment3> segments) {
+  UnitScene scene{camera, mesh.positions, segments, {}, {}};
+  const double diagonal = face_bounds(mesh).diagonal();
+  const double size = diagonal > 0.0 ? diagonal : glm::length(DVec3(camera.target) - DVec3(camera.eye));
+  if (size > 1e-3 && size < 1e3) return scene;
+  const double scale = std::ldexp(1.0, -std::ilogb(size));
+  const auto scaled = [scale](float length) { return static_cast<float>(double{length} * scale); };
+  const auto moved = [scale](const Vec3& p) { return Vec3(DVec3(p) * scale); };
+  scene.camera.eye = moved(camera.eye);
+  scene.camera.target = moved(camera.target);
+  scene.camera.ortho_height = scaled(camera.ortho_height);
+  scene.camera.near_distance = scaled(camera.near_distance);
+  scene.camera.far_distance = scaled(camera.far_distance);
+  for (const Vec3& p : mesh.positions)
+    scene.moved_points.push_back(moved(p));
+  for (const Segment3& s : segments)
+    scene.moved_segments.push_back({moved(s.a), moved(s.b), s.color});
+  scene.points = scene.moved_points;
+  scene.segments = scene.moved_segments;
+  return scene;
+}
+
 }  // namespace
 
 Result<Image> render(gl::Context& context, const Mesh& mesh, const Camera& camera, const RenderOptions& options,
@@ -164,13 +196,15 @@ Result<Image> render(gl::Context& context, const Mesh& mesh, const Camera& camer
   context.make_current();
   const auto targets = RenderTargets::create(options.width, options.height, options.samples);
   if (!targets) return tl::unexpected(targets.error());
-  const ShaderCamera view = shader_camera(camera, options);
+  const UnitScene scene = bring_to_unit_scale(mesh, camera, segments);
+  const ShaderCamera view = shader_camera(scene.camera, options);
   targets->begin_faces();
   if (!mesh.faces.empty()) {
-    if (auto drawn = draw_faces(context, mesh, view, options); !drawn) return tl::unexpected(drawn.error());
+    if (auto drawn = draw_faces(context, mesh, scene.points, view, options); !drawn)
+      return tl::unexpected(drawn.error());
   }
   if (!segments.empty()) {
-    if (auto drawn = draw_segments(context, segments, view, options, *targets); !drawn)
+    if (auto drawn = draw_segments(context, scene.segments, view, options, *targets); !drawn)
       return tl::unexpected(drawn.error());
   }
   return targets->resolve(context, options.background);

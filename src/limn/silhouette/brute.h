@@ -11,8 +11,8 @@ namespace limn {
 /// Finds every silhouette edge by testing all of them: the oracle that every other extractor equals.
 ///
 /// An edge is returned when it has two faces (EdgeClass::kManifold or kInconsistent) and exactly one is seen from the
-/// front (facing.h). Boundary and non-manifold edges are never returned here; see edges_of_class() and
-/// Topology::edge_class.
+/// front (facing.h). Boundary and non-manifold edges are never returned here; see boundary_edges(),
+/// non_manifold_edges() and Topology::edge_class.
 ///
 /// \param topology  edges and faces of the mesh
 /// \param planes    one per face, from face_planes()

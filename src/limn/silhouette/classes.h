@@ -7,14 +7,6 @@
 
 namespace limn {
 
-/// The classes of line a drawing distinguishes.
-enum class LineClass : std::uint8_t {
-  kSilhouette,   ///< between a face seen from the front and one seen from the back
-  kBoundary,     ///< at the rim of an open mesh
-  kCrease,       ///< two faces that meet at more than an angle, or whose normals are split
-  kNonManifold,  ///< three faces or more, or two that disagree on the front
-};
-
 /// The edges with one face only, ascending.
 std::vector<EdgeId> boundary_edges(const Topology& topology);
 

@@ -5,7 +5,7 @@
 #include "limn/mesh/mesh.h"
 
 /// One builder a shape, for make_shape(). Each meets `faces` as nearly as it can. \pre faces is at least the shape's
-/// smallest, at most 2^30. May throw std::bad_alloc.
+/// smallest, at most 100 million. May throw std::bad_alloc.
 namespace limn::procedural {
 
 Mesh tetrahedron(std::size_t faces);
