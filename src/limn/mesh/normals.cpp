@@ -45,7 +45,7 @@ std::size_t longest_side(const Mesh& mesh, FaceId face) {
 }
 
 /// Each face's normal; a sliver without area takes that of the face across its longest side, in whose plane it lies,
-/// so that a crease is seen through it.
+/// so that a crease is seen through it (but not through a chain of slivers).
 std::vector<DVec3> normals_seen_through_slivers(const Mesh& mesh, const Topology& topology) {
   std::vector<DVec3> normals(mesh.faces.size());
   parallel_for(normals.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -57,7 +57,7 @@ std::vector<DVec3> normals_seen_through_slivers(const Mesh& mesh, const Topology
     const EdgeId across = topology.face_edges[f][longest_side(mesh, static_cast<FaceId>(f))];
     const Edge& edge = topology.edges[across];
     const FaceId other = edge.face[0] == f ? edge.face[1] : edge.face[0];
-    if (topology.edge_class[across] == EdgeClass::kManifold) normals[f] = normals[other];
+    if (topology.edge_class[across] == EdgeClass::kManifold) normals[f] = unit_normal(mesh, other);
   }
   return normals;
 }
