@@ -13,11 +13,11 @@ using test::TempFolder;
 TEST(WriteFile, ReplacesAFileWholeAndKeepsItsPermissions) {
   const TempFolder folder;
   const auto path = folder.write("a", "old");
-  std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  constexpr auto kMode = std::filesystem::perms::owner_all | std::filesystem::perms::group_read;
+  std::filesystem::permissions(path, kMode);
   ASSERT_TRUE(write_file(path, "new content"));
   EXPECT_EQ(slurp(path), "new content");
-  EXPECT_EQ(std::filesystem::status(path).permissions(),
-            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  EXPECT_EQ(std::filesystem::status(path).permissions(), kMode);
 }
 
 TEST(WriteFile, LeavesNothingBehindWhenItFails) {
@@ -35,6 +35,14 @@ TEST(WriteFile, FollowsALinkAndKeepsIt) {
   std::filesystem::create_symlink(target, folder / "link");
   ASSERT_TRUE(write_file(folder / "link", "new"));
   EXPECT_EQ(slurp(target), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+}
+
+TEST(WriteFile, MakesTheFileADanglingLinkNames) {
+  const TempFolder folder;
+  std::filesystem::create_symlink("target", folder / "link");
+  ASSERT_TRUE(write_file(folder / "link", "new"));
+  EXPECT_EQ(slurp(folder / "target"), "new");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
 }
 

@@ -66,6 +66,29 @@ int write_all(int fd, std::span<const std::byte> bytes) {
   return 0;
 }
 
+/// The file a link names, whether it exists yet or not, so that it is replaced and the link stays.
+std::filesystem::path followed(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(path, error); ++i) {
+    const std::filesystem::path next = std::filesystem::read_symlink(path, error);
+    if (error) break;
+    path = path.parent_path() / next;
+  }
+  return path;
+}
+
+/// Opens a new file beside `target`, with the permissions any new file gets; -1 and errno when it cannot.
+int create_beside(const std::filesystem::path& target, std::string& name) {
+  constexpr int kMostTries = 1000;
+  for (int i = 0; i < kMostTries; ++i) {
+    name = target.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part";
+    const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd >= 0 || errno != EEXIST) return fd;
+  }
+  return -1;
+}
+
 }  // namespace
 
 Result<FileBytes> FileBytes::open(const std::filesystem::path& path) {
@@ -143,25 +166,16 @@ Result<void> write_file(const std::filesystem::path& path, std::span<const std::
     if (code != 0) return tl::unexpected(unwritable(path, system_message(code)));
     return {};
   }
-  // A link is followed, so that the file it names is replaced and the link stays.
-  const std::filesystem::path target =
-      std::filesystem::is_symlink(path, status_error) ? std::filesystem::weakly_canonical(path, status_error) : path;
-  std::string temporary = target.string() + ".XXXXXX";
-  Descriptor fd(::mkstemp(temporary.data()));
+  const std::filesystem::path target = followed(path);
+  std::string temporary;
+  Descriptor fd(create_beside(target, temporary));
   if (fd.get() < 0) {
     const int code = errno;
     return tl::unexpected(unwritable(path, system_message(code), code == ENOENT ? "create its folder first" : ""));
   }
-  mode_t mode = 0;
-  if (std::filesystem::exists(status)) {
-    mode = static_cast<mode_t>(status.permissions()) & 07777;
-  } else {
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    mode = 0666 & ~mask;
-  }
   int code = write_all(fd.get(), bytes);
-  if (code == 0 && ::fchmod(fd.get(), mode) != 0) code = errno;
+  const auto mode = static_cast<mode_t>(status.permissions()) & 07777;
+  if (code == 0 && std::filesystem::exists(status) && ::fchmod(fd.get(), mode) != 0) code = errno;
   if (::close(fd.release()) != 0 && code == 0) code = errno;
   if (code == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) code = errno;
   if (code != 0) {
