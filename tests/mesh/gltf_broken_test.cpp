@@ -298,6 +298,7 @@ class GltfReferences : public testing::Test {
             "ftp://localhost/outside.bin",
             "HTTP://localhost/x",
             "C:outside.bin",
+            "sub/C:outside.bin",
             "%66ile%3A" + path,
             "inside.bin%00",
             "~/x/../../outside.bin",

@@ -8,6 +8,7 @@
 
 #include "limn/mesh/formats/finish.h"
 #include "limn/mesh/formats/formats.h"
+#include "limn/mesh/formats/reference.h"
 
 #include "support/mesh_bits.h"
 #include "support/temp_folder.h"

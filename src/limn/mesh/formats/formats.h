@@ -58,9 +58,4 @@ struct VertexMesh {
 };
 VertexMesh one_value_per_vertex(const Mesh& mesh);
 
-/// Reads a file that another refers to, relative to `folder`.
-/// Errors: kUnreadable, naming the reference, for absolute paths, "..", schemes ("http:", "file:"), links that lead out
-/// of the folder.
-Result<std::vector<std::byte>> read_reference(const std::filesystem::path& folder, std::string_view reference);
-
 }  // namespace limn::formats

@@ -10,6 +10,7 @@
 
 #include "limn/mesh/formats/base64.h"
 #include "limn/mesh/formats/picture_bytes.h"
+#include "limn/mesh/formats/reference.h"
 
 namespace limn::formats::gltf {
 namespace {
@@ -41,52 +42,14 @@ std::string shown(std::string_view text) {
   return text.size() > kLongest ? result + "…" : result;
 }
 
-int hex_value(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
-std::string percent_decoded(std::string_view text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '%' && i + 2 < text.size() && hex_value(text[i + 1]) >= 0 && hex_value(text[i + 2]) >= 0) {
-      result += static_cast<char>(hex_value(text[i + 1]) * 16 + hex_value(text[i + 2]));
-      i += 2;
-    } else {
-      result += text[i];
-    }
-  }
-  return result;
-}
-
-/// Why a decoded reference must not be followed; empty when it may. Links are for read_reference() to judge.
-std::string_view why_outside(std::string_view reference) {
-  if (reference.empty()) return "is empty";
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
-  if (std::any_of(reference.begin(), reference.end(), is_control)) return "holds a control character";
-  if (reference.find('\\') != std::string_view::npos) return "holds a backslash";
-  if (reference.front() == '/') return "is an absolute path";
-  if (reference.substr(0, reference.find('/')).find(':') != std::string_view::npos)
-    return "is an address, not a file name";
-  for (std::string_view rest = reference; !rest.empty();) {
-    const std::size_t length = std::min(rest.find('/'), rest.size());
-    if (rest.substr(0, length) == "..") return "leads out of the model's folder";
-    rest.remove_prefix(std::min(length + 1, rest.size()));
-  }
-  return {};
-}
-
-/// Checks a reference by its looks and gives it decoded.
-std::string checked_reference(const Field& uri) {
-  std::string reference = percent_decoded(uri.string());
-  const std::string_view reason = why_outside(reference);
+/// Refuses a reference by its looks.
+void check_reference(const Field& uri) {
+  const std::string reference = uri.string();
+  const std::string_view reason = objection_to_reference(reference);
   if (!reason.empty()) {
     refuse(uri.path(), fmt::format("\"{}\" {}; nothing was read there", shown(reference), reason),
            "put the file beside the model and name it without a path");
   }
-  return reference;
 }
 
 bool is_data_uri(std::string_view uri) {
@@ -241,27 +204,24 @@ void Document::check_extensions() {
 
 std::span<const std::byte> Document::load(const Field& uri) {
   const std::string text = uri.string();
-  const bool data = is_data_uri(text);
-  if (!data) checked_reference(uri);
-  // A file's key begins as no data URI's place does.
-  const std::string key = data ? uri.path() : fmt::format("/{}", text);
-  auto entry = loaded_.find(key);
-  if (entry == loaded_.end()) {
-    std::vector<std::byte> bytes;
-    if (data) {
-      bytes = decode_data_uri(uri);
-    } else {
-      if (source_.folder.empty()) {
-        refuse(uri.path(),
-               fmt::format("refers to the file \"{}\", but the model was not read from a folder", shown(text)),
-               "read the model from a file, or use a GLB");
-      }
-      Result<std::vector<std::byte>> read = read_reference(source_.folder, text);
-      if (!read) refuse(uri.path(), read.error().message, read.error().remedy);
-      bytes = *std::move(read);
-      bytes_ += bytes.size();
-    }
-    entry = loaded_.emplace(key, std::move(bytes)).first;
+  if (is_data_uri(text)) {
+    auto entry = embedded_.find(uri.path());
+    if (entry == embedded_.end()) entry = embedded_.emplace(uri.path(), decode_data_uri(uri)).first;
+    return entry->second;
+  }
+  check_reference(uri);
+  if (source_.folder.empty()) {
+    refuse(uri.path(), fmt::format("refers to the file \"{}\", but the model was not read from a folder", shown(text)),
+           "read the model from a file, or use a GLB");
+  }
+  const Result<std::filesystem::path> path = find_reference(source_.folder, text);
+  if (!path) refuse(uri.path(), path.error().message, path.error().remedy);
+  auto entry = files_.find(*path);
+  if (entry == files_.end()) {
+    Result<std::vector<std::byte>> read = read_reference(source_.folder, text);
+    if (!read) refuse(uri.path(), read.error().message, read.error().remedy);
+    bytes_ += read->size();
+    entry = files_.emplace(*path, *std::move(read)).first;
   }
   return entry->second;
 }
@@ -290,7 +250,7 @@ void Document::check_picture_references() {
   const Field images = (*this)["images"];
   for (std::size_t i = 0; i < images.size(); ++i) {
     const Field uri = images.at(i)["uri"];
-    if (uri && !is_data_uri(uri.string())) checked_reference(uri);
+    if (uri && !is_data_uri(uri.string())) check_reference(uri);
   }
 }
 
@@ -353,6 +313,19 @@ bool apply_meshopt_filter(std::vector<std::byte>& out, std::size_t count, std::s
 
 }  // namespace
 
+void Document::take_decompressed(std::uint64_t size, const std::string& where) {
+  // No stream of the extension's codecs grows more than 64 times, so that only views which share one get further.
+  constexpr std::uint64_t kFloor = std::uint64_t{16} << 20;
+  const std::uint64_t most = kFloor + 64 * bytes_;
+  if (size > most - decompressed_bytes_) {
+    refuse(
+        where,
+        fmt::format("brings the decompressed data to more than {} bytes, too many for {} bytes of data", most, bytes_),
+        "check the count; buffer views that share their compressed data must be one");
+  }
+  decompressed_bytes_ += size;
+}
+
 View Document::decompress(std::size_t index, const Field& extension) {
   const std::uint64_t stride = extension["byteStride"].index();
   const std::uint64_t count = extension["count"].index();
@@ -371,8 +344,8 @@ View Document::decompress(std::size_t index, const Field& extension) {
     if (count > (64 * std::uint64_t{in.size()} + 4096) / stride * 4) {
       refuse(extension["count"].path(), fmt::format("claims {} elements in {} bytes", count, in.size()));
     }
+    take_decompressed(count * stride, extension["count"].path());
     std::vector<std::byte> out(static_cast<std::size_t>(count * stride));
-    bytes_ += out.size() / 4;
     if (decode_meshopt(out, static_cast<std::size_t>(count), static_cast<std::size_t>(stride), in, mode) != 0) {
       refuse(extension.path(), "holds compressed data that cannot be decoded", "the file may be damaged");
     }
@@ -388,20 +361,18 @@ View Document::decompress(std::size_t index, const Field& extension) {
 #endif
 
 Picture Document::picture(std::size_t index) {
-  const Field image = (*this)["images"].at(index);
+  const auto known = pictures_.find(index);
+  if (known != pictures_.end()) return known->second;
+  return pictures_.emplace(index, read_picture((*this)["images"].at(index))).first->second;
+}
+
+Picture Document::read_picture(const Field& image) {
   Picture picture;
-  const Field uri = image["uri"];
-  if (uri) {
-    if (!is_data_uri(uri.string()) && !source_.folder.empty()) {
-      std::error_code ignored;
-      const auto missing = [&](const std::string& name) {
-        return std::filesystem::symlink_status(source_.folder / name, ignored).type() ==
-               std::filesystem::file_type::not_found;
-      };
-      if (missing(checked_reference(uri)) && missing(uri.string())) {
-        note(fmt::format("picture \"{}\" left out: no such file", shown(uri.string())));
-        return picture;
-      }
+  if (const Field uri = image["uri"]) {
+    const std::string text = uri.string();
+    if (!is_data_uri(text) && !source_.folder.empty() && !reference_exists(source_.folder, text)) {
+      note(fmt::format("picture \"{}\" left out: no such file", shown(text)));
+      return picture;
     }
     picture.bytes = load(uri);
   } else {

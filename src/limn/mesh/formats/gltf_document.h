@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <span>
 #include <string>
@@ -37,10 +38,13 @@ class Document {
   Field operator[](std::string_view key) const { return root()[key]; }
   bool binary() const { return binary_; }
   const Progress& progress() const { return source_.progress; }
+  /// The size of the file and of the files it refers to that were read so far, each counted once.
+  std::uint64_t bytes_read() const { return bytes_; }
 
-  /// The bytes of bufferViews[index], decompressed where needed. Throws Failure when they are not all there.
+  /// The bytes of bufferViews[index], decompressed where needed. Throws Failure when they are not all there, or when
+  /// all that was decompressed comes to more than 64 times bytes_read() and 16 MiB.
   View view(std::size_t index);
-  /// The encoded picture images[index].
+  /// The encoded picture images[index]; read once, however often it is asked for.
   Picture picture(std::size_t index);
 
   /// Counts vertices or faces about to be stored; throws Failure when the file claims more than its size makes
@@ -59,16 +63,21 @@ class Document {
   std::span<const std::byte> load(const Field& uri);
   std::span<const std::byte> buffer_range(const Field& owner) const;
   View decompress(std::size_t index, const Field& extension);
+  void take_decompressed(std::uint64_t size, const std::string& where);
+  Picture read_picture(const Field& image);
 
   const Source& source_;
   std::vector<std::string>& notes_;
   bool binary_ = false;
   Json json_;
   std::span<const std::byte> chunk_;
-  std::map<std::string, std::vector<std::byte>, std::less<>> loaded_;  ///< by reference, data URIs by place
+  std::map<std::filesystem::path, std::vector<std::byte>> files_;  ///< by canonical path
+  std::map<std::string, std::vector<std::byte>> embedded_;         ///< data URIs, by place
   std::vector<std::span<const std::byte>> buffers_;
   std::map<std::size_t, std::vector<std::byte>> decompressed_;
+  std::map<std::size_t, Picture> pictures_;
   std::uint64_t bytes_ = 0;
+  std::uint64_t decompressed_bytes_ = 0;
   std::uint64_t claimed_ = 0;
 };
 

@@ -13,9 +13,29 @@ float unit_interval(const Field& field, double otherwise) {
   return static_cast<float>(std::clamp(field.number_or(otherwise), 0.0, 1.0));
 }
 
+/// Decides which materials get a copy of their picture.
+class Copies {
+ public:
+  explicit Copies(const Document& document) : document_(document) {}
+
+  bool take(std::size_t image, std::size_t size) {
+    // Images may share their bytes, and the first uses of all of them are free only as far as there are bytes.
+    if (seen_.insert(image).second && size <= document_.bytes_read() - first_uses_) {
+      first_uses_ += size;
+      return true;
+    }
+    return budget_.take_copy(size);
+  }
+
+ private:
+  const Document& document_;
+  std::set<std::size_t> seen_;
+  std::uint64_t first_uses_ = 0;
+  PictureBudget budget_;
+};
+
 /// Copies the picture of baseColorTexture into the material.
-void read_picture(Document& document, const Field& texture_info, Material& material, std::set<std::size_t>& seen,
-                  PictureBudget& budget) {
+void read_picture(Document& document, const Field& texture_info, Material& material, Copies& copies) {
   const std::size_t texture = texture_info["index"].index_into(document["textures"]);
   if (texture_info["texCoord"].index_or(0) != 0 ||
       texture_info["extensions"]["KHR_texture_transform"]["texCoord"].index_or(0) != 0) {
@@ -30,7 +50,7 @@ void read_picture(Document& document, const Field& texture_info, Material& mater
   }
   const std::size_t image = source.index_into(document["images"]);
   const Picture picture = document.picture(image);
-  if (!seen.insert(image).second && !budget.take_copy(picture.bytes.size())) {
+  if (!copies.take(image, picture.bytes.size())) {
     document.note(fmt::format("{} left out: its picture is used too many times", texture_info.path()));
     return;
   }
@@ -50,8 +70,7 @@ Material default_material() {
 
 std::vector<Material> read_materials(Document& document) {
   std::vector<Material> materials;
-  std::set<std::size_t> seen;
-  PictureBudget budget;
+  Copies copies(document);
   const Field list = document["materials"];
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Field field = list.at(i);
@@ -66,7 +85,7 @@ std::vector<Material> read_materials(Document& document) {
     material.metallic = unit_interval(pbr["metallicFactor"], 1.0);
     material.roughness = unit_interval(pbr["roughnessFactor"], 1.0);
     material.double_sided = field["doubleSided"].boolean_or(false);
-    if (const Field texture = pbr["baseColorTexture"]) read_picture(document, texture, material, seen, budget);
+    if (const Field texture = pbr["baseColorTexture"]) read_picture(document, texture, material, copies);
     materials.push_back(std::move(material));
   }
   return materials;

@@ -5,6 +5,7 @@
 
 #include "limn/mesh/formats/formats.h"
 #include "limn/mesh/formats/parse_number.h"
+#include "limn/mesh/formats/reference.h"
 
 namespace limn::formats {
 namespace {

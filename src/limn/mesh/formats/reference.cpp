@@ -1,9 +1,10 @@
+#include "limn/mesh/formats/reference.h"
+
 #include <algorithm>
 #include <fmt/format.h>
-#include <optional>
+#include <string>
 
 #include "limn/base/file.h"
-#include "limn/mesh/formats/formats.h"
 #include "limn/mesh/formats/text.h"
 
 namespace limn::formats {
@@ -34,10 +35,10 @@ std::string percent_decoded(std::string_view text) {
   return result;
 }
 
-/// Why a reference may not be followed by its looks; nothing when it may.
-std::optional<std::string> objection_to(std::string_view reference) {
+std::string_view objection_to_decoded(std::string_view reference) {
   if (reference.empty()) return "is empty";
-  if (reference.find('\0') != std::string_view::npos) return "holds a zero byte";
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20; };
+  if (std::any_of(reference.begin(), reference.end(), is_control)) return "holds a control character";
   if (reference.find(':') != std::string_view::npos)
     return "names a scheme or a drive: only files beside the model are read";
   if (reference.find('\\') != std::string_view::npos) return "holds a backslash: folders are parted by '/'";
@@ -47,10 +48,10 @@ std::optional<std::string> objection_to(std::string_view reference) {
     if (reference.substr(at, stop - at) == "..") return "leads out of the model's folder with '..'";
     at = stop + 1;
   }
-  return std::nullopt;
+  return {};
 }
 
-tl::unexpected<Error> refuse(std::string_view reference, const std::string& reason) {
+tl::unexpected<Error> refuse(std::string_view reference, std::string_view reason) {
   return fail(ErrorCode::kUnreadable, fmt::format("the reference {} {}", in_quotes(reference), reason),
               "put the file beside the model and refer to it by its name");
 }
@@ -64,22 +65,40 @@ bool lies_within(const fs::path& folder, const fs::path& path) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> read_reference(const std::filesystem::path& folder, std::string_view reference) {
+std::string_view objection_to_reference(std::string_view reference) {
+  // Decoding takes away nothing that is objected to, so the written spelling needs no look of its own.
+  return objection_to_decoded(percent_decoded(reference));
+}
+
+bool reference_exists(const std::filesystem::path& folder, std::string_view reference) {
+  const auto exists = [&](std::string_view name) {
+    std::error_code ignored;
+    return fs::symlink_status(folder / fs::path(name), ignored).type() != fs::file_type::not_found;
+  };
+  return exists(percent_decoded(reference)) || exists(reference);
+}
+
+Result<std::filesystem::path> find_reference(const std::filesystem::path& folder, std::string_view reference) {
   if (folder.empty()) return refuse(reference, "cannot be followed: the model does not come from a file");
-  const std::string decoded = percent_decoded(reference);
-  for (const std::string_view spelling : {reference, std::string_view(decoded)}) {
-    if (const auto objection = objection_to(spelling)) return refuse(reference, *objection);
-  }
+  const std::string_view objection = objection_to_reference(reference);
+  if (!objection.empty()) return refuse(reference, objection);
   std::error_code error;
   const fs::path home = fs::canonical(folder, error);
   if (error) return refuse(reference, "cannot be followed: " + error.message());
   // URIs (glTF) are percent-encoded, names in MTL are not: where only the literal name exists, that is the one.
+  const fs::path decoded = percent_decoded(reference);
   const bool literal = !fs::exists(home / decoded, error) && fs::exists(home / fs::path(reference), error);
-  const fs::path target = fs::canonical(home / (literal ? fs::path(reference) : fs::path(decoded)), error);
+  fs::path target = fs::canonical(home / (literal ? fs::path(reference) : decoded), error);
   if (error) return refuse(reference, "cannot be read: " + error.message());
   if (!lies_within(home, target)) return refuse(reference, "is a link that leads out of the model's folder");
   if (!fs::is_regular_file(target, error)) return refuse(reference, "is not a file");
-  const Result<FileBytes> file = FileBytes::open(target);
+  return target;
+}
+
+Result<std::vector<std::byte>> read_reference(const std::filesystem::path& folder, std::string_view reference) {
+  const Result<fs::path> target = find_reference(folder, reference);
+  if (!target) return tl::unexpected<Error>(target.error());
+  const Result<FileBytes> file = FileBytes::open(*target);
   if (!file) return refuse(reference, "cannot be read: " + file.error().message);
   return std::vector<std::byte>(file->bytes().begin(), file->bytes().end());
 }
