@@ -110,6 +110,25 @@ TEST(GltfLimits, ImagesThatShareTheirBytesShareTheirBudget) {
   EXPECT_EQ(copies, 1 + (std::size_t{256} << 20) / kSize);
 }
 
+TEST(GltfLimits, ReadingStopsBetweenThePrimitivesOfAMesh) {
+  GltfFile file = triangle_file();
+  for (int i = 0; i < 99; ++i)
+    file.json["meshes"][0]["primitives"].push_back(Json(file.json["meshes"][0]["primitives"][0]));
+  const std::string bytes = file.glb();
+  formats::Source source = source_of(bytes);
+  std::vector<double> reports;
+  source.progress = [&](std::string_view, double done) {
+    reports.push_back(done);
+    return done < 0.5;
+  };
+  const Result<ImportedMesh> result = read_gltf(source);
+  ASSERT_FALSE(result.has_value());
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+  EXPECT_GT(reports.size(), 10u);
+  EXPECT_LT(reports.back(), 0.6);
+}
+
 #ifdef LIMN_TEST_MESHOPTIMIZER
 
 /// Zeros as the vertex codec packs them best: a stream that grows about 64 times.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <new>
 #include <optional>
 #include <set>
@@ -53,11 +54,13 @@ class Merger {
  public:
   explicit Merger(Document& document) : document_(document) {}
 
-  void add_mesh(const Placement& placement);
+  /// Reports from `done` on, for a share `share` of the work. Throws Cancelled.
+  void add_mesh(const Placement& placement, double done, double share);
   Mesh finish();
 
  private:
-  using Shared = std::vector<std::pair<VertexKey, std::pair<VertexId, std::size_t>>>;
+  /// The first vertex and the number of vertices that were read for a key.
+  using Shared = std::map<VertexKey, std::pair<VertexId, std::size_t>>;
 
   void add_primitive(const Field& primitive, const Mover& mover, Shared& shared);
   VertexId add_vertices(const Vertices& vertices, const Mover& mover, const Field& primitive);
@@ -78,12 +81,15 @@ class Merger {
   std::set<std::string> left_out_;
 };
 
-void Merger::add_mesh(const Placement& placement) {
+void Merger::add_mesh(const Placement& placement, double done, double share) {
   const Mover mover(placement.transform);
   const Field primitives = document_["meshes"].at(placement.mesh)["primitives"];
   Shared shared;
-  for (std::size_t i = 0; i < primitives.size(); ++i)
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(primitives.size());
+    if (!report(document_.progress(), "reading", done + share * part)) throw Cancelled{};
     add_primitive(primitives.at(i), mover, shared);
+  }
 }
 
 void Merger::add_primitive(const Field& primitive, const Mover& mover, Shared& shared) {
@@ -105,11 +111,11 @@ void Merger::add_primitive(const Field& primitive, const Mover& mover, Shared& s
     return;
   }
   const VertexKey key = vertex_key(primitive);
-  auto known = std::find_if(shared.begin(), shared.end(), [&](const auto& entry) { return entry.first == key; });
+  auto known = shared.find(key);
   if (known == shared.end()) {
     const Vertices vertices = read_vertices(document_, primitive);
     const VertexId first = add_vertices(vertices, mover, primitive);
-    known = shared.insert(shared.end(), {key, {first, vertices.positions.size()}});
+    known = shared.emplace(key, std::pair(first, vertices.positions.size())).first;
   }
   const auto [first, count] = known->second;
   const std::vector<Triangle> triangles = read_triangles(document_, primitive, count);
@@ -248,11 +254,9 @@ ImportedMesh read(const Source& source) {
   result.format = document.binary() ? MeshFormat::kGlb : MeshFormat::kGltf;
   const std::vector<Placement> placements = place_meshes(document);
   Merger merger(document);
-  for (std::size_t i = 0; i < placements.size(); ++i) {
-    const double done = static_cast<double>(i) / static_cast<double>(placements.size());
-    if (!report(source.progress, "reading", done)) throw Cancelled{};
-    merger.add_mesh(placements[i]);
-  }
+  const double share = 1.0 / static_cast<double>(placements.size());
+  for (std::size_t i = 0; i < placements.size(); ++i)
+    merger.add_mesh(placements[i], static_cast<double>(i) * share, share);
   result.mesh = merger.finish();
   note_motion(document);
   return result;
