@@ -294,6 +294,25 @@ TEST(ObjMaterials, MissingLibraryIsANote) {
   EXPECT_TRUE(obj.mesh.face_materials.empty());
 }
 
+TEST(ObjMaterials, APictureUnderManySpellingsKeepsToOneBudget) {
+  constexpr std::size_t kSize = std::size_t{32} << 20;
+  const TempFolder folder;
+  folder.write("skin.png", std::string(kTinyPng) + std::string(kSize - kTinyPng.size(), ' '));
+  std::string library;
+  std::string name = "skin.png";
+  for (char material = 'a'; material < 'l'; ++material) {
+    library += std::string("newmtl ") + material + "\nmap_Kd " + name + "\n";
+    name.insert(0, "./");
+  }
+  folder.write("many.mtl", library);
+  const ImportedMesh obj = read("mtllib many.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n", folder.path());
+  std::size_t copies = 0;
+  for (const Material& material : obj.mesh.materials)
+    copies += material.base_color_image.empty() ? 0 : 1;
+  EXPECT_EQ(copies, 1 + (std::size_t{256} << 20) / kSize);
+  EXPECT_TRUE(has_note(obj, "left out: used too many times"));
+}
+
 TEST(ObjMaterials, NothingOutsideTheFolderIsRead) {
   const TempFolder outer;
   const auto secret = outer.write("secret.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");

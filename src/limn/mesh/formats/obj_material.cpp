@@ -134,7 +134,10 @@ void ObjMaterials::set(Material& material, std::string_view key, std::string_vie
 
 void ObjMaterials::load_picture(Material& material, std::string_view statement) {
   const std::string name(map_file_name(statement));
-  auto entry = pictures_.find(name);
+  // One file is one picture under any spelling; a name that leads to none has a key that no path has.
+  const Result<std::filesystem::path> path = find_reference(folder_, name);
+  const std::string key = path ? path->string() : "?" + name;
+  auto entry = pictures_.find(key);
   if (entry == pictures_.end()) {
     Result<std::vector<std::byte>> bytes = read_reference(folder_, name);
     if (!bytes) {
@@ -145,7 +148,7 @@ void ObjMaterials::load_picture(Material& material, std::string_view statement) 
       notes_.push_back("picture \"" + name + "\" of material \"" + material.name + "\" left out: neither PNG nor JPEG");
       bytes->clear();
     }
-    entry = pictures_.emplace(name, std::move(*bytes)).first;
+    entry = pictures_.emplace(key, std::move(*bytes)).first;
   } else if (!budget_.take_copy(entry->second.size())) {
     notes_.push_back("picture \"" + name + "\" of material \"" + material.name + "\" left out: used too many times");
     return;

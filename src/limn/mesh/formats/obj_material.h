@@ -39,7 +39,7 @@ class ObjMaterials {
   std::vector<std::string>& notes_;
   std::vector<Material> materials_;
   std::map<std::string, std::uint32_t, std::less<>> index_;
-  std::map<std::string, std::vector<std::byte>, std::less<>> pictures_;
+  std::map<std::string, std::vector<std::byte>, std::less<>> pictures_;  ///< by canonical path
   PictureBudget budget_;
 };
 
