@@ -55,5 +55,19 @@ TEST(Off, ReadsEveryPrefix) {
   EXPECT_EQ(must_read("NOFF\n1 0 0\n0 0 0 0 1 0\n", MeshFormat::kOff).mesh.normals.values.at(0), Vec3(0, 1, 0));
 }
 
+TEST(Off, TextureCoordinatesDoNotTellWhetherColorsAreBytes) {
+  for (const char* const keyword : {"STCOFF", "STCNOFF"}) {
+    const std::string normal = keyword == std::string_view("STCNOFF") ? " 0 0 1 " : " ";
+    const auto read_vertex = [&](const std::string& extras) {
+      return must_read(std::string(keyword) + "\n1 0 0\n1 2 3" + normal + extras + "\n", MeshFormat::kOff).mesh;
+    };
+    const Mesh repeated = read_vertex("0.5 0.25 0.75 2.5 -3");
+    EXPECT_EQ(repeated.colors.values.at(0), Vec4(0.5f, 0.25f, 0.75f, 1)) << keyword;
+    EXPECT_EQ(repeated.uvs.values.at(0), Vec2(2.5f, -3)) << keyword;
+    EXPECT_EQ(read_vertex("0.5 0.25 0.75 0.125 2.5 7").colors.values.at(0), Vec4(0.5f, 0.25f, 0.75f, 0.125f));
+    EXPECT_EQ(read_vertex("255 0 0 0.5 0.5").colors.values.at(0), Vec4(1, 0, 0, 1)) << keyword;
+  }
+}
+
 }  // namespace
 }  // namespace limn

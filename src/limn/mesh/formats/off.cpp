@@ -137,8 +137,6 @@ class OffReader {
       const std::string_view word = text_.peek();
       if (!text_.real(values[count]))
         return complain(fmt::format("{} in vertex {} is no number", in_quotes(word), vertex));
-      // Colours are fractions, or whole numbers up to 255: one above 1 tells.
-      if (kind_.colors && count < 4 && values[count] > 1.0f) byte_colors_ = true;
       ++count;
     }
     const std::size_t texcoords = kind_.texcoords ? 2 : 0;
@@ -151,6 +149,8 @@ class OffReader {
       return complain(fmt::format("vertex {} has {} numbers behind its position and normal", vertex, count));
     }
     if (kind_.colors) {
+      // Colours are fractions, or whole numbers up to 255: one above 1 tells.
+      byte_colors_ |= std::any_of(values, values + color, [](float value) { return value > 1.0f; });
       result_.mesh.colors.values.emplace_back(values[0], values[1], values[2], color == 4 ? values[3] : 1.0f);
       opaque_.push_back(color == 3);
     }
