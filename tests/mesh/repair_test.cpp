@@ -1,10 +1,14 @@
 #include "limn/mesh/repair.h"
 
 #include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
 #include <set>
+#include <string>
 #include <tuple>
 
+#include "limn/base/random.h"
+#include "limn/mesh/face_area.h"
 #include "limn/mesh/shapes.h"
 #include "limn/mesh/validate.h"
 
@@ -132,6 +136,90 @@ TEST(Repair, FacesWithoutAreaStayWhereTheyHoldTheSurfaceTogether) {
   const Repair repaired = repair(loose);
   EXPECT_TRUE(mentions(repaired, "removed 1 face without area"));
   EXPECT_EQ(report_of(repaired.mesh).zero_area_faces, 0u);
+}
+
+/// Faces without area taken off one round at a time, the topology built anew for each.
+Mesh slowly_peeled(Mesh mesh) {
+  for (;;) {
+    const Topology topology = build_topology(mesh);
+    std::vector<Triangle> kept;
+    for (FaceId face = 0; face < mesh.faces.size(); ++face) {
+      const std::array<EdgeId, 3>& edges = topology.face_edges[face];
+      if (edges[0] == kInvalidId) continue;
+      const bool sliver = twice_area_vector(mesh, face) == DVec3(0.0);
+      const bool loose = std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) {
+        return topology.edge_class[edge] == EdgeClass::kBoundary ||
+               topology.edge_class[edge] == EdgeClass::kNonManifold;
+      });
+      if (!sliver || !loose) kept.push_back(mesh.faces[face]);
+    }
+    if (kept.size() == mesh.faces.size()) return mesh;
+    mesh.faces = std::move(kept);
+  }
+}
+
+void expect_peels_as_the_oracle(Mesh mesh) {
+  mesh.normals = {};
+  mesh.uvs = {};
+  mesh.colors = {};
+  mesh.face_materials = {};
+  const Mesh peeled = slowly_peeled(mesh);
+  const Repair repaired = repair(mesh);
+  const std::size_t gone = mesh.faces.size() - peeled.faces.size();
+  EXPECT_EQ(mentions(repaired, "without area"), gone > 0);
+  EXPECT_EQ(mentions(repaired, "removed " + std::to_string(gone) + " face"), gone > 0);
+  test::expect_same_bits(repaired.mesh, repair(peeled).mesh);
+}
+
+TEST(Repair, TakesOffTheSameFacesAsTheSlowOracle) {
+  for (const StableMesh& entry : test::awkward_meshes()) {
+    SCOPED_TRACE(entry.name);
+    expect_peels_as_the_oracle(entry.mesh);
+  }
+  Random random(17);
+  for (int round = 0; round < 600; ++round) {
+    SCOPED_TRACE(round);
+    Mesh mesh;
+    const std::uint64_t height = 1 + random.below(2);
+    for (int i = 0; i < 12; ++i) {
+      mesh.positions.emplace_back(static_cast<float>(random.below(4)), static_cast<float>(random.below(height + 1)),
+                                  static_cast<float>(random.below(height)));
+    }
+    const std::uint64_t faces = 4 + random.below(40);
+    for (std::uint64_t i = 0; i < faces; ++i) {
+      const auto vertex = [&] { return static_cast<VertexId>(random.below(12)); };
+      mesh.faces.push_back({vertex(), vertex(), vertex()});
+    }
+    expect_peels_as_the_oracle(mesh);
+  }
+}
+
+TEST(Repair, PeelsALongSeamOfFacesWithoutAreaInTime) {
+  // Flat on a line, each held by the two beside it and by a face with area: only the ends are loose, round by round.
+  constexpr VertexId kSlivers = 100000;
+  Mesh mesh;
+  for (VertexId i = 0; i < kSlivers + 2; ++i)
+    mesh.positions.emplace_back(static_cast<float>(i), 0, 0);
+  for (VertexId i = 0; i < kSlivers; ++i) {
+    mesh.positions.emplace_back(static_cast<float>(i + 1), 1, 0);
+    mesh.faces.push_back({i, i + 1, i + 2});
+    mesh.faces.push_back({i, i + 2, kSlivers + 2 + i});
+  }
+  const Repair repaired = repair(mesh);
+  EXPECT_TRUE(mentions(repaired, "removed 100000 faces without area"));
+  EXPECT_EQ(repaired.mesh.faces.size(), kSlivers);
+}
+
+TEST(Repair, ManyFacesWithoutAreaAroundOneEdgeGoInTime) {
+  constexpr VertexId kSlivers = 100000;
+  Mesh mesh;
+  mesh.positions = {Vec3(0), Vec3(-1, 0, 0), Vec3(0, 1, 0)};
+  mesh.faces = {{0, 1, 2}};
+  for (VertexId i = 0; i < kSlivers; ++i) {
+    mesh.positions.emplace_back(static_cast<float>(i + 1), 0, 0);
+    mesh.faces.push_back({1, 0, i + 3});
+  }
+  EXPECT_EQ(repair(mesh).mesh.faces, (std::vector<Triangle>{{0, 1, 2}}));
 }
 
 TEST(Repair, AttributesFollowTheirFaces) {

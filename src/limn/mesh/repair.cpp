@@ -1,8 +1,10 @@
 #include "limn/mesh/repair.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -40,29 +42,86 @@ void keep_faces(Mesh& mesh, const std::vector<std::uint8_t>& keep) {
   if (!mesh.face_materials.empty()) mesh.face_materials.resize(kept);
 }
 
-/// Whether a face of three distinct corners has no area and leaves no gap when it goes: one whose three edges each hold
-/// on to one other face stays, since without it the faces around it would no longer be connected.
-bool is_loose_sliver(const Mesh& mesh, const Topology& topology, FaceId face) {
-  if (twice_area_vector(mesh, face) != DVec3(0.0)) return false;
-  return std::any_of(topology.face_edges[face].begin(), topology.face_edges[face].end(), [&](EdgeId edge) {
-    return topology.edge_class[edge] == EdgeClass::kBoundary || topology.edge_class[edge] == EdgeClass::kNonManifold;
-  });
+/// Sorts ids and leaves each once.
+void sort_once(std::vector<std::uint32_t>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
+
+/// Takes faces without area off a surface, in rounds: all that are loose at once, then those that this has made loose.
+/// Only the neighbours of what went can have become so, so that the rounds together look at each edge a few times.
+class Peeling {
+ public:
+  explicit Peeling(const Mesh& mesh) : mesh_(mesh), topology_(build_topology(mesh)), keep_(mesh.faces.size(), 1) {
+    for (const FaceId face : topology_.degenerate_faces)
+      keep_[face] = 0;
+    faces_at_.reserve(topology_.edge_count());
+    for (EdgeId edge = 0; edge < topology_.edge_count(); ++edge)
+      faces_at_.push_back(static_cast<std::uint32_t>(topology_.edge_faces(edge).size()));
+  }
+
+  /// Which faces stay.
+  std::vector<std::uint8_t> peel() {
+    std::vector<FaceId> loose;
+    for (FaceId face = 0; face < keep_.size(); ++face) {
+      if (keep_[face] && is_loose_sliver(face)) loose.push_back(face);
+    }
+    while (!loose.empty()) {
+      remove(loose);
+      loose = loosened_by(loose);
+    }
+    return std::move(keep_);
+  }
+
+ private:
+  /// Whether a face of three distinct corners has no area and leaves no gap when it goes: one whose three edges each
+  /// hold on to one other face stays, since without it the faces around it would no longer be connected.
+  bool is_loose_sliver(FaceId face) const {
+    const std::array<EdgeId, 3>& edges = topology_.face_edges[face];
+    return std::any_of(edges.begin(), edges.end(), [this](EdgeId edge) { return faces_at_[edge] != 2; }) &&
+           twice_area_vector(mesh_, face) == DVec3(0.0);
+  }
+
+  void remove(const std::vector<FaceId>& faces) {
+    for (const FaceId face : faces) {
+      keep_[face] = 0;
+      for (const EdgeId edge : topology_.face_edges[face])
+        --faces_at_[edge];
+    }
+  }
+
+  /// An edge lets its last sliver go when one face is left. Where more than two are left none is a sliver: those went
+  /// with the first round.
+  std::vector<FaceId> loosened_by(const std::vector<FaceId>& removed) const {
+    std::vector<EdgeId> open;
+    for (const FaceId face : removed) {
+      for (const EdgeId edge : topology_.face_edges[face]) {
+        if (faces_at_[edge] == 1) open.push_back(edge);
+      }
+    }
+    sort_once(open);
+    std::vector<FaceId> loose;
+    for (const EdgeId edge : open) {
+      const std::span<const FaceId> around = topology_.edge_faces(edge);
+      const auto left = std::find_if(around.begin(), around.end(), [this](FaceId face) { return keep_[face] != 0; });
+      if (is_loose_sliver(*left)) loose.push_back(*left);
+    }
+    sort_once(loose);
+    return loose;
+  }
+
+  const Mesh& mesh_;
+  Topology topology_;
+  std::vector<std::uint8_t> keep_;
+  std::vector<std::uint32_t> faces_at_;  ///< one an edge: how many of its faces stay
+};
 
 /// Takes away faces without area until no more of them are loose. Returns how many.
 std::size_t remove_faces_without_area(Mesh& mesh) {
-  std::size_t removed = 0;
-  for (;;) {
-    const Topology topology = build_topology(mesh);
-    std::vector<std::uint8_t> keep(mesh.faces.size(), 1);
-    for (FaceId face = 0; face < keep.size(); ++face) {
-      keep[face] = topology.face_edges[face][0] != kInvalidId && !is_loose_sliver(mesh, topology, face);
-    }
-    const auto useless = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 0));
-    if (useless == 0) return removed;
-    removed += useless;
-    keep_faces(mesh, keep);
-  }
+  const std::vector<std::uint8_t> keep = Peeling(mesh).peel();
+  const auto useless = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 0));
+  if (useless > 0) keep_faces(mesh, keep);
+  return useless;
 }
 
 /// The face's vertices, the lowest first, in the order it winds.

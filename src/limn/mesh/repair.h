@@ -20,7 +20,8 @@ struct Repair {
 /// surface would come apart. A component takes the winding most of its faces have; a closed one that winds inwards is
 /// turned, unless its box lies inside that of another closed component, where it may be the wall of a cavity. One-sided
 /// components stay as they are. Normals that would point behind a turned face are turned with it.
-/// Cost: a few passes and one sort of the faces. Same mesh, same bits. \pre indices in range, positions finite
+/// Cost: a few passes and sorts of the faces, however many faces without area lie behind one another. Same mesh, same
+/// bits. \pre indices in range, positions finite
 Repair repair(const Mesh& mesh);
 
 }  // namespace limn
