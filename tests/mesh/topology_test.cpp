@@ -1,7 +1,10 @@
 #include "limn/mesh/topology.h"
 
+#include <bit>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "limn/base/parallel.h"
@@ -114,6 +117,57 @@ TEST(Topology, SortsAFanOfManyFacesAroundOneVertexInTime) {
   for (VertexId i = 1; i < kRim; ++i)
     mesh.faces.push_back({0, i, i + 1});
   EXPECT_EQ(build_topology(mesh).edge_count(), 2u * (kRim - 1) + 1);
+}
+
+/// Positions that all fall on one slot of a table hashed as weld_positions() does, by running its hash backwards.
+std::vector<Vec3> crowding_positions(std::size_t count) {
+  const auto inverse = [](std::uint64_t odd) {
+    std::uint64_t result = odd;
+    for (int i = 0; i < 5; ++i)
+      result *= 2 - odd * result;
+    return result;
+  };
+  std::vector<Vec3> positions;
+  for (std::uint64_t high = 1; positions.size() < count; ++high) {
+    std::uint64_t x = high << 32;
+    x ^= x >> 32;
+    x *= inverse(0xd6e8feb86659fd93ull);
+    x ^= x >> 32;
+    x *= inverse(0x9e3779b97f4a7c15ull);
+    const Vec3 p(std::bit_cast<float>(static_cast<std::uint32_t>(x)),
+                 std::bit_cast<float>(static_cast<std::uint32_t>(x >> 32)), 0);
+    if (std::isfinite(p.x) && std::isfinite(p.y)) positions.push_back(p);
+  }
+  return positions;
+}
+
+void expect_welds_as_a_map(const std::vector<Vec3>& positions) {
+  std::map<std::tuple<float, float, float>, VertexId> lowest;
+  std::vector<VertexId> expected;
+  for (const Vec3& p : positions)
+    expected.push_back(lowest.try_emplace({p.x, p.y, p.z}, static_cast<VertexId>(expected.size())).first->second);
+  EXPECT_EQ(weld_positions(positions), expected);
+}
+
+TEST(WeldPositions, PositionsMadeToCrowdTheTableTakeNoLongerThanASort) {
+  expect_welds_as_a_map(crowding_positions(160000));
+}
+
+TEST(WeldPositions, JoinsEqualPositionsWhetherTheyCrowdOrNot) {
+  expect_welds_as_a_map({});
+  Random random(11);
+  for (const bool crowded : {false, true}) {
+    std::vector<Vec3> positions = crowded ? crowding_positions(3000) : std::vector<Vec3>{};
+    for (int i = 0; i < 3000; ++i) {
+      const auto coordinate = [&] { return static_cast<float>(random.below(20)) - 10.0f; };
+      positions.emplace_back(coordinate(), coordinate(), coordinate());
+      if (random.below(4) == 0) positions.back().z = -0.0f;
+      positions.push_back(positions[random.below(positions.size())]);
+      const std::size_t other = random.below(positions.size());
+      std::swap(positions[other], positions.back());
+    }
+    expect_welds_as_a_map(positions);
+  }
 }
 
 TEST(WeldPositions, WithToleranceJoinsChainsAndNamesThemByTheirLowest) {

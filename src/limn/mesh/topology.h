@@ -59,8 +59,8 @@ struct WeldOptions {
   float tolerance = 0.0f;
 };
 
-/// For each position the lowest index of an equal one (-0 equals 0). Cost: one pass over a hash table.
-/// Same result for any number of threads. \pre every position is finite
+/// For each position the lowest index of an equal one (-0 equals 0). Cost: one pass over a hash table, or
+/// a sort where positions crowd its slots. Same result for any number of threads. \pre every position is finite
 std::vector<VertexId> weld_positions(std::span<const Vec3> positions, const WeldOptions& options = {});
 
 /// Builds the connectivity of a mesh. Cost: a few linear passes. Same result for any number of threads.

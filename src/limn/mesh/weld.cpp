@@ -16,15 +16,39 @@ std::uint64_t mix(std::uint64_t x) {
   return x;
 }
 
-/// Equal coordinates hash alike: adding 0 turns -0 into 0.
-std::uint64_t hash_position(const Vec3& p) {
-  const std::uint64_t x = std::bit_cast<std::uint32_t>(p.x + 0.0f);
-  const std::uint64_t y = std::bit_cast<std::uint32_t>(p.y + 0.0f);
-  const std::uint64_t z = std::bit_cast<std::uint32_t>(p.z + 0.0f);
-  return mix((x | (y << 32)) * 0x9e3779b97f4a7c15ull ^ mix(z));
+/// Equal positions have equal keys, and no others do: adding 0 turns -0 into 0.
+std::array<std::uint32_t, 3> key_of(const Vec3& p) {
+  return {std::bit_cast<std::uint32_t>(p.x + 0.0f), std::bit_cast<std::uint32_t>(p.y + 0.0f),
+          std::bit_cast<std::uint32_t>(p.z + 0.0f)};
 }
 
+std::uint64_t hash_position(const Vec3& p) {
+  const auto [x, y, z] = key_of(p);
+  return mix((x | (std::uint64_t{y} << 32)) * 0x9e3779b97f4a7c15ull ^ mix(z));
+}
+
+/// Slower than the table, but no choice of positions makes it slower still.
+std::vector<VertexId> weld_by_sorting(std::span<const Vec3> positions) {
+  std::vector<VertexId> order(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [positions](VertexId a, VertexId b) {
+    const auto key_a = key_of(positions[a]);
+    const auto key_b = key_of(positions[b]);
+    return key_a != key_b ? key_a < key_b : a < b;
+  });
+  std::vector<VertexId> weld(positions.size());
+  VertexId lowest = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || positions[order[i]] != positions[order[i - 1]]) lowest = order[i];
+    weld[order[i]] = lowest;
+  }
+  return weld;
+}
+
+/// One pass over a hash table; by sorting where the positions crowd its slots, as only a file made to do so has them.
 std::vector<VertexId> weld_exactly(std::span<const Vec3> positions) {
+  constexpr std::size_t kProbesPerPosition = 16;
+  std::size_t probes_left = kProbesPerPosition * positions.size();
   std::vector<VertexId> weld(positions.size());
   const std::size_t slots = std::bit_ceil(std::max<std::size_t>(16, positions.size() * 2));
   std::vector<VertexId> table(slots, kInvalidId);
@@ -40,8 +64,10 @@ std::vector<VertexId> weld_exactly(std::span<const Vec3> positions) {
     for (std::size_t i = 0; i < count; ++i) {
       const VertexId vertex = static_cast<VertexId>(begin + i);
       std::size_t slot = start[i];
-      while (table[slot] != kInvalidId && positions[table[slot]] != positions[vertex])
+      while (table[slot] != kInvalidId && positions[table[slot]] != positions[vertex]) {
+        if (probes_left-- == 0) return weld_by_sorting(positions);
         slot = (slot + 1) & (slots - 1);
+      }
       if (table[slot] == kInvalidId) table[slot] = vertex;
       weld[vertex] = table[slot];
     }
