@@ -133,6 +133,56 @@ TEST(HostilePng, DataFarBeyondThePictureIsRefused) {
   EXPECT_EQ(read.error().where, "IDAT");
 }
 
+/// A zlib stream of one literal 0 and then runs of 258 more, 13 bits each.
+std::string packed_zeros(std::size_t runs) {
+  std::string stream("\x78\x9c", 2);
+  std::uint32_t bits = 0;
+  int held = 0;
+  const auto put = [&](std::uint32_t value, int count) {
+    bits |= value << held;
+    for (held += count; held >= 8; held -= 8, bits >>= 8)
+      stream.push_back(static_cast<char>(bits & 0xffu));
+  };
+  put(0b011, 3);       // the last block, with the fixed codes
+  put(0b00001100, 8);  // 0; Huffman codes are sent from their highest bit
+  for (std::size_t i = 0; i < runs; ++i)
+    put(0b10100011, 13);  // 258 bytes, from one byte back
+  put(0, 7 + 7);          // the end, and the rest of a byte
+  return stream + std::string(4, '\0');
+}
+
+TEST(HostilePng, DataThatInflatesFarBeyondThePictureIsRefused) {
+  constexpr std::size_t kSide = 512;
+  constexpr std::size_t kRowsBytes = (4 * kSide + 1) * kSide;
+  const auto fitting = decode_image(as_bytes(png_with(kSide, kSide, packed_zeros(kRowsBytes / 258 + 1))), "good.png");
+  ASSERT_TRUE(fitting) << format_error(fitting.error());
+  EXPECT_EQ(fitting->rgba, std::vector<std::uint8_t>(4 * kSide * kSide, 0));
+  for (const std::size_t times : {2u, 100u}) {
+    const auto read =
+        decode_image(as_bytes(png_with(kSide, kSide, packed_zeros(times * kRowsBytes / 258))), "bomb.png");
+    ASSERT_FALSE(read) << times;
+    EXPECT_EQ(read.error().where, "IDAT");
+  }
+}
+
+TEST(Png, InterlacedRowsMayTakeMoreThanPlainOnes) {
+  // Plain, 3 x 16384 pixels of one bit take 16384 rows of two bytes; the passes take 28672.
+  const std::string header = big_endian(3) + big_endian(16384) + std::string("\x01\0\0\0\x01", 5);
+  const auto read = decode_image(as_bytes(std::string("\x89PNG\r\n\x1a\n", 8) + chunk("IHDR", header) +
+                                          chunk("IDAT", packed_zeros(57344 / 258 + 1)) + chunk("IEND", "")),
+                                 "interlaced.png");
+  ASSERT_TRUE(read) << format_error(read.error());
+  EXPECT_EQ(read->height, 16384);
+}
+
+TEST(HostilePng, DataPackedForPhonesIsRefused) {
+  std::string whole = encoded(noise(4, 4, 3));
+  whole.insert(33, chunk("CgBI", std::string(4, '\0')));  // behind the header
+  const auto read = decode_image(as_bytes(whole), "phone.png");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().where, "byte 33");
+}
+
 TEST(HostilePng, AChunkThatClaimsMoreThanTheFileNamesItsByte) {
   std::string whole = encoded(noise(4, 4, 3));
   whole.replace(33, 4, big_endian(0x7fffffff));

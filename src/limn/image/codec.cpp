@@ -6,6 +6,7 @@
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 #include <string>
+#include <vector>
 
 #include "limn/base/file.h"
 #include "limn/image/image.h"
@@ -77,9 +78,13 @@ std::uint64_t promised_bytes(std::uint64_t width, std::uint64_t height, unsigned
   return ((width * channels * depth + 7) / 8 + 1) * height;
 }
 
+/// What is allowed beyond promised sizes: some encoders add a row, and the seven passes of an interlaced picture have
+/// rows of their own, each rounded up and with its filter.
+constexpr std::uint64_t kSlackBytes = std::uint64_t{1} << 16;
+
 struct PngHeader {
   std::uint64_t promised = 0;
-  std::uint64_t compressed = 0;
+  std::vector<char> compressed;  ///< the data of all IDAT chunks
 };
 
 Result<std::uint64_t> read_png_header(Bytes bytes, std::string_view name, std::size_t data) {
@@ -117,10 +122,29 @@ Result<PngHeader> check_png_chunks(Bytes bytes, std::string_view name) {
       if (!promised) return tl::unexpected(promised.error());
       header.promised = *promised;
     }
-    if (type == "IDAT") header.compressed += length;
+    const char* const data = type.data() + type.size();
+    if (type == "IDAT") header.compressed.insert(header.compressed.end(), data, data + length);
+    if (type == "CgBI") {
+      return unreadable(name, at_byte(at), "a PNG packed for iPhones, which other programs cannot read",
+                        "save it as an ordinary PNG");
+    }
     if (type == "IEND") return header;
     at += kChunkOverheadBytes + length;
   }
+}
+
+/// The decoder makes room for whatever the data inflates to, up to a thousand times the file: this makes sure before
+/// that it is what the picture needs.
+Result<void> check_inflated_size(const PngHeader& header, std::string_view name) {
+  constexpr auto kMost = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
+  const std::uint64_t room = header.promised + kSlackBytes;
+  if (room > kMost) return unreadable(name, "IHDR", "pictures whose rows take 2 GiB and more are not read");
+  const std::unique_ptr<char[]> rows(new char[static_cast<std::size_t>(room)]);
+  if (stbi_zlib_decode_buffer(rows.get(), static_cast<int>(room), header.compressed.data(),
+                              static_cast<int>(header.compressed.size())) >= 0) {
+    return {};
+  }
+  return unreadable(name, "IDAT", "the data is damaged, or holds far more than the picture that the header promises");
 }
 
 /// Deflate packs at most 1032 to 1 and, written sensibly, never grows by an eighth: outside of that a header lies, and
@@ -129,14 +153,13 @@ Result<void> check_png(Bytes bytes, std::string_view name) {
   const auto header = check_png_chunks(bytes, name);
   if (!header) return tl::unexpected(header.error());
   constexpr std::uint64_t kDeflateBound = 1032;
-  constexpr std::uint64_t kSlackBytes = std::uint64_t{1} << 16;
-  if (header->promised > header->compressed * kDeflateBound + kSlackBytes) {
+  if (header->promised > header->compressed.size() * kDeflateBound + kSlackBytes) {
     return unreadable(name, "IHDR", "the header promises more pixels than the file's data can hold");
   }
-  if (header->compressed > header->promised + header->promised / 8 + kSlackBytes) {
+  if (header->compressed.size() > header->promised + header->promised / 8 + kSlackBytes) {
     return unreadable(name, "IDAT", "the file holds far more data than the picture its header promises");
   }
-  return {};
+  return check_inflated_size(*header, name);
 }
 
 /// A JPEG spends at least a bit on a block, so one byte holds a few hundred pixels at best.
@@ -159,7 +182,7 @@ struct FreePixels {
   void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
 };
 
-Result<Image> decode_checked(Bytes bytes, std::string_view name) try {
+Result<Image> decode_checked(Bytes bytes, std::string_view name) {
   int width = 0, height = 0, channels = 0;
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const std::unique_ptr<stbi_uc, FreePixels> pixels(
@@ -168,8 +191,6 @@ Result<Image> decode_checked(Bytes bytes, std::string_view name) try {
   Image image(width, height);
   std::memcpy(image.rgba.data(), pixels.get(), image.rgba.size());
   return image;
-} catch (const std::bad_alloc&) {
-  return unreadable(name, {}, "not enough memory for the picture");
 }
 
 void append(void* context, void* data, int size) {
@@ -178,7 +199,7 @@ void append(void* context, void* data, int size) {
 
 }  // namespace
 
-Result<Image> decode_image(Bytes bytes, std::string_view name) {
+Result<Image> decode_image(Bytes bytes, std::string_view name) try {
   if (!is_png(bytes) && !is_jpeg(bytes)) return unreadable(name, {}, "neither a PNG nor a JPEG file");
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     return unreadable(name, {}, "pictures of 2 GiB and more are not read");
@@ -186,6 +207,8 @@ Result<Image> decode_image(Bytes bytes, std::string_view name) {
   const Result<void> checked = is_png(bytes) ? check_png(bytes, name) : check_jpeg(bytes, name);
   if (!checked) return tl::unexpected(checked.error());
   return decode_checked(bytes, name);
+} catch (const std::bad_alloc&) {
+  return unreadable(name, {}, "not enough memory for the picture");
 }
 
 Result<Image> read_png(const std::filesystem::path& path) {
