@@ -334,6 +334,64 @@ TEST(ObjMaterials, NothingOutsideTheFolderIsRead) {
   EXPECT_TRUE(has_note(obj, "picture \"../secret.png\""));
 }
 
+TEST(ObjMaterials, LibrariesNamedOverAndOverAreReadInTime) {
+  const TempFolder folder;
+  std::string library;
+  for (int i = 0; i < 30000; ++i)
+    library += "newmtl material " + std::to_string(i) + "\nKd 0.5 0.25 0.125\n";
+  folder.write("much.mtl", library);
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  std::string here = "./";
+  for (int i = 0; i < 1000; ++i, here += i % 100 == 0 ? "./" : "")
+    text += "mtllib much.mtl\nmtllib " + here + "much.mtl\nmtllib %6duch.mtl\nmtllib much.mtl " + here + "%6Duch.mtl\n";
+  const ImportedMesh obj = read(text + "usemtl material 7\nf 1 2 3\n", folder.path());
+  EXPECT_EQ(obj.mesh.materials.size(), 30000u);
+  EXPECT_EQ(obj.mesh.materials.at(7).base_color, Vec4(0.5f, 0.25f, 0.125f, 1));
+  EXPECT_TRUE(obj.notes.empty()) << obj.notes.front();
+}
+
+TEST(ObjMaterials, ALibraryThatIsNotThereIsNotedOnce) {
+  const TempFolder folder;
+  const ImportedMesh obj =
+      read("mtllib lost.mtl\nmtllib lost.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n", folder.path());
+  EXPECT_EQ(obj.notes.size(), 1u);
+}
+
+TEST(ObjMaterials, SpellingsOfOnePictureShareOneBudget) {
+  constexpr std::size_t kPictureBytes = std::size_t{32} << 20;
+  constexpr std::size_t kSpellings = 12;
+  const TempFolder folder;
+  std::string picture(kTinyPng);
+  picture.resize(kPictureBytes);
+  folder.write("p.png", picture);
+  std::filesystem::create_symlink("p.png", folder / "link.png");
+  std::string library = "newmtl l\nmap_Kd link.png\nnewmtl c\nmap_Kd %70.pn%67\n";
+  std::string name = "p.png";
+  for (std::size_t i = 2; i < kSpellings; ++i, name = "./" + name)
+    library += "newmtl m" + std::to_string(i) + "\nmap_Kd " + name + "\n";
+  folder.write("a.mtl", library);
+  const ImportedMesh obj = read("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m2\nf 1 2 3\n", folder.path());
+  std::size_t held = 0;
+  for (const Material& material : obj.mesh.materials)
+    held += material.base_color_image.size();
+  EXPECT_EQ(obj.mesh.materials.size(), kSpellings);
+  EXPECT_EQ(held, 9 * kPictureBytes) << "the first use, and copies of 256 MiB";
+  EXPECT_TRUE(has_note(obj, "used too many times"));
+}
+
+TEST(ObjMaterials, ARefusedSpellingDoesNotSpoilAGoodOne) {
+  const TempFolder folder;
+  folder.write("p.png", kTinyPng);
+  const std::string away = (folder / "p.png").string();
+  folder.write("a.mtl", "newmtl a\nmap_Kd " + away + "\nnewmtl b\nmap_Kd ./../" + folder.path().filename().string() +
+                            "/p.png\nnewmtl c\nmap_Kd p.png\n");
+  const ImportedMesh obj = read("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl c\nf 1 2 3\n", folder.path());
+  ASSERT_EQ(obj.mesh.materials.size(), 3u);
+  EXPECT_TRUE(obj.mesh.materials[0].base_color_image.empty());
+  EXPECT_TRUE(obj.mesh.materials[1].base_color_image.empty());
+  EXPECT_EQ(obj.mesh.materials[2].base_color_image.size(), kTinyPng.size());
+}
+
 Mesh two_materials() {
   Mesh mesh =
       read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\nf 1/1 2/2 3/3\nf 2/2 4/4 3/3\n").mesh;

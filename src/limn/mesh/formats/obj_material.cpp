@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 
 #include "limn/mesh/formats/formats.h"
 #include "limn/mesh/formats/parse_number.h"
@@ -82,12 +83,22 @@ void ObjMaterials::read_libraries(std::string_view statement) {
     read_library(std::string(take_word(statement)), true);
 }
 
+/// One string a file, however its name is spelled; one a spelling for names that read_reference() refuses by their
+/// looks or finds no file for. Chooses between a coded and a literal name as it does.
+std::string ObjMaterials::file_key(const std::string& name) const {
+  const Result<std::filesystem::path> path = find_reference(folder_, name);
+  return path ? path->string() : "?" + name;  // no canonical path begins so
+}
+
 bool ObjMaterials::read_library(const std::string& name, bool last_attempt) {
+  const auto [entry, added] = libraries_.try_emplace(file_key(name), false);
+  if (!added) return entry->second;
   const Result<std::vector<std::byte>> bytes = read_reference(folder_, name);
   if (!bytes) {
     if (last_attempt) notes_.push_back("material library \"" + name + "\" not read: " + bytes.error().message);
     return false;
   }
+  entry->second = true;
   parse({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
   return true;
 }
@@ -134,10 +145,8 @@ void ObjMaterials::set(Material& material, std::string_view key, std::string_vie
 
 void ObjMaterials::load_picture(Material& material, std::string_view statement) {
   const std::string name(map_file_name(statement));
-  // One file is one picture under any spelling; a name that leads to none has a key that no path has.
-  const Result<std::filesystem::path> path = find_reference(folder_, name);
-  const std::string key = path ? path->string() : "?" + name;
-  auto entry = pictures_.find(key);
+  std::string file = file_key(name);
+  auto entry = pictures_.find(file);
   if (entry == pictures_.end()) {
     Result<std::vector<std::byte>> bytes = read_reference(folder_, name);
     if (!bytes) {
@@ -148,7 +157,7 @@ void ObjMaterials::load_picture(Material& material, std::string_view statement) 
       notes_.push_back("picture \"" + name + "\" of material \"" + material.name + "\" left out: neither PNG nor JPEG");
       bytes->clear();
     }
-    entry = pictures_.emplace(key, std::move(*bytes)).first;
+    entry = pictures_.emplace(std::move(file), std::move(*bytes)).first;
   } else if (!budget_.take_copy(entry->second.size())) {
     notes_.push_back("picture \"" + name + "\" of material \"" + material.name + "\" left out: used too many times");
     return;

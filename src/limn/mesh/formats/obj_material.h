@@ -21,7 +21,8 @@ class ObjMaterials {
   ObjMaterials(std::filesystem::path folder, std::vector<std::string>& notes)
       : folder_(std::move(folder)), notes_(notes) {}
 
-  /// Reads what a mtllib statement names: one file (its name may hold blanks) or several.
+  /// Reads what a mtllib statement names: one file (its name may hold blanks) or several. A library is read once,
+  /// however often and in whatever spelling it is named.
   void read_libraries(std::string_view statement);
 
   /// The index of a material, made with default values when no library has it.
@@ -30,6 +31,7 @@ class ObjMaterials {
   std::vector<Material> take() { return std::move(materials_); }
 
  private:
+  std::string file_key(const std::string& name) const;
   bool read_library(const std::string& name, bool last_attempt);
   void parse(std::string_view text);
   void set(Material& material, std::string_view key, std::string_view values);
@@ -39,7 +41,8 @@ class ObjMaterials {
   std::vector<std::string>& notes_;
   std::vector<Material> materials_;
   std::map<std::string, std::uint32_t, std::less<>> index_;
-  std::map<std::string, std::vector<std::byte>, std::less<>> pictures_;  ///< by canonical path
+  std::map<std::string, bool, std::less<>> libraries_;                   ///< by file_key(): whether it could be read
+  std::map<std::string, std::vector<std::byte>, std::less<>> pictures_;  ///< by file_key(); empty: not to be had
   PictureBudget budget_;
 };
 
