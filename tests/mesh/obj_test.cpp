@@ -433,6 +433,24 @@ TEST(ObjMaterials, SurviveTheRoundTrip) {
   EXPECT_EQ(back.mesh.face_materials, mesh.face_materials);
 }
 
+TEST(ObjWrite, NamesFilesBesideTheModelAsItsReaderFollowsThem) {
+  for (const char* const name : {"a:b.obj", "a\\b.obj", "b\\.obj", "50%41.obj", "50%00.obj", "two\nlines\tand.obj",
+                                 "  in front.obj", "-s 2 2.obj", "a#b.obj", "plain name.obj"}) {
+    SCOPED_TRACE(name);
+    const TempFolder folder;
+    const Mesh mesh = two_materials();
+    const auto files = formats::write_obj(mesh, folder / name);
+    ASSERT_TRUE(files.has_value());
+    EXPECT_EQ(files->front().path, folder / name);
+    for (const auto& file : *files)
+      folder.write(file.path.filename().string(), file.bytes);
+    const ImportedMesh back = read(files->front().bytes, folder.path());
+    EXPECT_TRUE(back.notes.empty()) << back.notes.front();
+    ASSERT_EQ(back.mesh.materials.size(), 3u);
+    EXPECT_EQ(back.mesh.materials[1].base_color_image, mesh.materials[1].base_color_image);
+  }
+}
+
 TEST(ObjWrite, GivesStandardOutputOneFile) {
   const auto files = formats::write_obj(two_materials(), "-");
   ASSERT_TRUE(files.has_value());

@@ -57,10 +57,24 @@ std::string file_name_part(const std::string& name) {
   return part;
 }
 
+/// The start of the names of the files beside the model: its own name, as a statement can hold it and read_reference()
+/// follows it.
+std::string companion_stem(const std::filesystem::path& path) {
+  std::string stem = path.stem().string();
+  for (char& c : stem) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == ':' || c == '\\' || c == '%') c = '_';
+  }
+  // Blanks in front would be left out; a dash there begins an option.
+  for (std::size_t i = 0; i < stem.size() && (stem[i] == ' ' || stem[i] == '-'); ++i)
+    stem[i] = '_';
+  return stem;
+}
+
 /// The MTL text; pictures are added to `files`.
 std::string material_library(const Mesh& mesh, const std::vector<std::string>& names, const std::filesystem::path& path,
                              std::vector<OutputFile>& files) {
-  std::string text = "# materials of " + path.stem().string() + ".obj\n";
+  const std::string file_stem = companion_stem(path);
+  std::string text = "# materials of " + file_stem + ".obj\n";
   std::set<std::string> picture_names;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Material& material = mesh.materials[i];
@@ -70,7 +84,7 @@ std::string material_library(const Mesh& mesh, const std::vector<std::string>& n
     append_line(text, "Pr", material.roughness);
     append_line(text, "Pm", material.metallic);
     if (material.base_color_image.empty()) continue;
-    std::string stem = path.stem().string() + "-" + file_name_part(names[i]);
+    std::string stem = file_stem + "-" + file_name_part(names[i]);
     while (!picture_names.insert(stem).second)
       stem += fmt::format("_{}", i + 1);
     const std::string name = stem + (material.base_color_image_mime == "image/jpeg" ? ".jpg" : ".png");
@@ -156,7 +170,7 @@ Result<std::vector<OutputFile>> write_obj(const Mesh& mesh, const std::filesyste
     for (const Material& material : mesh.materials)
       names.push_back(unique_name(material, names.size(), taken));
   }
-  if (!names.empty()) text += "mtllib " + path.stem().string() + ".mtl\n";
+  if (!names.empty()) text += "mtllib " + companion_stem(path) + ".mtl\n";
   const bool split = !mesh.colors.indices.empty();
   const ColoredVertices colored = split ? split_by_color(mesh) : ColoredVertices{};
   write_vertices(text, split ? colored.positions : mesh.positions, split ? colored.colors : mesh.colors.values);
@@ -167,7 +181,7 @@ Result<std::vector<OutputFile>> write_obj(const Mesh& mesh, const std::filesyste
   write_faces(text, mesh, split ? colored.faces : mesh.faces, names);
   if (!names.empty()) {
     std::string library = material_library(mesh, names, path, files);
-    files.push_back({path.parent_path() / (path.stem().string() + ".mtl"), std::move(library)});
+    files.push_back({path.parent_path() / (companion_stem(path) + ".mtl"), std::move(library)});
   }
   return files;
 }
