@@ -103,7 +103,9 @@ void expect_split_well(const Mesh& mesh) {
   const formats::VertexMesh split = formats::one_value_per_vertex(mesh);
   ASSERT_EQ(split.source.size(), split.positions.size());
   for (std::size_t i = 0; i < split.positions.size(); ++i) {
-    if (i < mesh.positions.size()) EXPECT_EQ(split.source[i], i);
+    if (i < mesh.positions.size()) {
+      EXPECT_EQ(split.source[i], i);
+    }
   }
   Mesh flat;
   flat.positions = split.positions;

@@ -292,7 +292,7 @@ class GltfReferences : public testing::Test {
             "..\\outside.bin",
             "%5c..%5coutside.bin",
             "sub%2F..%2F..%2Foutside.bin",
-            "%2" + ("F" + path.substr(1)),
+            std::string("%2F").append(path, 1),
             "http://localhost/outside.bin",
             "https://localhost/outside.bin",
             "ftp://localhost/outside.bin",
