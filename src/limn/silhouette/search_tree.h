@@ -1,0 +1,71 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "limn/base/aligned.h"
+#include "limn/silhouette/edge_clusters.h"
+#include "limn/silhouette/facing.h"
+#include "limn/silhouette/quantized.h"
+#include "limn/silhouette/simd/level.h"
+
+namespace limn {
+
+/// What a query did.
+struct SearchCounters {
+  std::size_t groups_tested = 0;  ///< groups of 16 nodes
+  std::size_t leaves_tested = 0;  ///< leaves of up to 16 edges
+};
+
+/// Memory that queries use, kept from one to the next. One a thread.
+struct SearchScratch {
+  LineVector<std::uint32_t> current, next, edges;
+};
+
+/// A tree of edge clusters, 16 children to a node, that finds the silhouette by leaving out whatever surely faces one
+/// way. Sander et al. 2000, section 5, as one would build it today (docs/search-tree.md).
+///
+/// A node bounds its faces' planes by a ball of normals about a quantized one, and an interval of offsets at an anchor
+/// point: n·p + d is a·(p - c) + e give or take r |p - c| + h. Sixteen nodes are tested by four multiply-adds of 16-bit
+/// pairs. Everything the tree decides is decided in integers, alike on every machine; bounds hold the roundings of the
+/// float test, so the edges found are exactly those of extract_silhouette_brute().
+class SearchTree {
+ public:
+  SearchTree() = default;
+
+  /// \param clusters  from leaf_clusters() of the same mesh
+  /// Keeps `planes`, not a copy: they must outlive it. Same bits for any number of threads.
+  /// Cost: about 0.2 µs an edge on one core, beside that of the clusters; 25 bytes an edge.
+  SearchTree(std::span<const LeafCluster> clusters, std::span<const Plane> planes, const QuantizedFrame& frame);
+
+  /// Follows a mesh whose vertices have moved but whose faces have not: new bounds over the same clusters. What is
+  /// found stays exact however far they moved; the tree serves best while neighbours go on facing nearly the same way.
+  void refit(std::span<const Plane> planes, const QuantizedFrame& frame);
+
+  /// Every silhouette edge once: the set of extract_silhouette_brute(), in the order of the leaves.
+  /// \return the edges, within the scratch: valid until it is used again. Same order for any level.
+  /// Cost: grows with the silhouette; see docs/search-tree.md.
+  std::span<const EdgeId> find(const Eye& eye, SearchScratch& scratch, SearchCounters* counters = nullptr,
+                               SimdLevel level = best_simd_level()) const;
+
+  /// As find(), but tests the nodes above the leaves all in turn: less work where most would be entered.
+  std::span<const EdgeId> find_flat(const Eye& eye, SearchScratch& scratch, SearchCounters* counters = nullptr,
+                                    SimdLevel level = best_simd_level()) const;
+
+  std::size_t leaf_count() const { return leaves_.size(); }
+  std::size_t edge_count() const { return edge_count_; }
+  std::size_t memory_bytes() const;
+
+ private:
+  std::span<const EdgeId> sweep_from(std::size_t level, const Eye& eye, SearchScratch& scratch,
+                                     SearchCounters* counters, SimdLevel simd) const;
+
+  std::span<const Plane> planes_;
+  QuantizedFrame frame_;
+  std::size_t edge_count_ = 0;
+  LineVector<simd::Leaf> leaves_;
+  std::vector<FaceId> leaf_faces_;                   ///< 16 a leaf
+  std::vector<LineVector<simd::NodeGroup>> levels_;  ///< levels_[0] bounds the leaves, levels_[i] levels_[i-1]
+};
+
+}  // namespace limn
