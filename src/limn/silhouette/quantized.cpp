@@ -82,6 +82,10 @@ QuantizedPlane quantize(const QuantizedFrame& frame, const Plane& plane) {
 }
 
 simd::EyeWords quantize(const QuantizedFrame& frame, const ExactContext& context) {
+  return quantize_within(frame, context, 0.0);
+}
+
+simd::EyeWords quantize_within(const QuantizedFrame& frame, const ExactContext& context, double travel) {
   const Eye& eye = context.eye;
   simd::EyeWords words{};
   words.at[0] = eye.at.x;
@@ -105,8 +109,10 @@ simd::EyeWords quantize(const QuantizedFrame& frame, const ExactContext& context
       0.5 * (k * (std::abs(v.x) + std::abs(v.y) + std::abs(v.z) + scale) + 1.74 * kWord + 2.0 * kWord);
   // What faces_eye() itself may be off: five roundings in float, and the underflow of its products.
   const double terms = glm::length(at) + (eye.orthographic ? 0.0 : frame.magnitude + glm::length(frame.origin));
-  const double predicate = kWord * k * (6.0 * kFloatUnit * terms + 8.0 * std::numeric_limits<float>::denorm_min());
-  const double error = std::ceil(rounding + predicate) + 8.0;
+  const double predicate =
+      kWord * k * (6.0 * kFloatUnit * (terms + travel) + 8.0 * std::numeric_limits<float>::denorm_min());
+  const double moved = kWord * k * travel * (1.0 + 0x1.0p-20);
+  const double error = std::ceil(rounding + predicate + moved) + 8.0;
   if (!(error < kUselessError)) return words;
   words.decisive = true;
   words.error = static_cast<std::int32_t>(error);

@@ -39,6 +39,10 @@ struct ExactContext {
 /// so far off that floats say little, gets a bound that leaves every face to the exact test.
 simd::EyeWords quantize(const QuantizedFrame& frame, const ExactContext& context);
 
+/// The same with a bound for every eye of the same kind within `travel` of this one: n·p + d changes by no more than p
+/// moves.
+simd::EyeWords quantize_within(const QuantizedFrame& frame, const ExactContext& context, double travel);
+
 /// Distances up to this many units fit the kernels' 16 bits.
 inline constexpr int kLargestWord = 32767;
 

@@ -1,6 +1,6 @@
 #include "limn/silhouette/search_tree.h"
 
-#include <cassert>
+#include <algorithm>
 
 #include "limn/silhouette/node_bounds.h"
 
@@ -33,33 +33,55 @@ void SearchTree::refit(std::span<const Plane> planes, const QuantizedFrame& fram
 
 std::span<const EdgeId> SearchTree::find(const Eye& eye, SearchScratch& scratch, SearchCounters* counters,
                                          SimdLevel level) const {
-  return sweep_from(levels_.size() - 1, eye, scratch, counters, level);
+  if (leaves_.empty()) return {};
+  const ExactContext context{planes_, eye};
+  const simd::EyeWords words = quantize(frame_, context);
+  return read(enter(levels_.size() - 1, words, scratch, counters, level), words, scratch, level);
 }
 
 std::span<const EdgeId> SearchTree::find_flat(const Eye& eye, SearchScratch& scratch, SearchCounters* counters,
                                               SimdLevel level) const {
-  return sweep_from(0, eye, scratch, counters, level);
-}
-
-std::span<const EdgeId> SearchTree::sweep_from(std::size_t level, const Eye& eye, SearchScratch& scratch,
-                                               SearchCounters* counters, SimdLevel simd) const {
   if (leaves_.empty()) return {};
   const ExactContext context{planes_, eye};
   const simd::EyeWords words = quantize(frame_, context);
-  const simd::Kernels& kernels = simd::kernels(simd);
-  std::size_t count = words.decisive ? levels_[level].size() : leaves_.size();
-  const std::uint32_t* entered = nullptr;  // all
-  for (std::size_t l = words.decisive ? level + 1 : 0; l-- > 0;) {
-    if (scratch.next.size() < simd::kWidth * (count + 1)) scratch.next.resize(simd::kWidth * (count + 1));
-    if (counters != nullptr) counters->groups_tested += count;
-    count = kernels.sweep_groups(levels_[l].data(), entered, count, words, scratch.next.data());
-    scratch.next.swap(scratch.current);
-    entered = scratch.current.data();
+  return read(enter(0, words, scratch, counters, level), words, scratch, level);
+}
+
+std::optional<std::span<const EdgeId>> SearchTree::find_if_sparse(const Eye& eye, std::size_t most_leaves,
+                                                                  SearchScratch& scratch, SimdLevel level) const {
+  if (leaves_.empty()) return std::span<const EdgeId>{};
+  const ExactContext context{planes_, eye};
+  const simd::EyeWords words = quantize(frame_, context);
+  const Entered entered = enter(levels_.size() - 1, words, scratch, nullptr, level);
+  if (entered.count > most_leaves) return std::nullopt;
+  return read(entered, words, scratch, level);
+}
+
+SearchTree::Entered SearchTree::enter(std::size_t top, const simd::EyeWords& eye, SearchScratch& scratch,
+                                      SearchCounters* counters, SimdLevel level) const {
+  Entered entered{nullptr, leaves_.size()};
+  if (eye.decisive) {
+    entered.count = levels_[top].size();
+    for (std::size_t l = top + 1; l-- > 0;) {
+      const std::size_t room = simd::kWidth * (entered.count + 1);
+      if (scratch.next.size() < room) scratch.next.resize(room);
+      if (counters != nullptr) counters->groups_tested += entered.count;
+      entered.count =
+          simd::kernels(level).sweep_groups(levels_[l].data(), entered.leaves, entered.count, eye, scratch.next.data());
+      scratch.next.swap(scratch.current);
+      entered.leaves = scratch.current.data();
+    }
   }
-  if (counters != nullptr) counters->leaves_tested += count;
-  if (scratch.edges.size() < simd::kWidth * (count + 1)) scratch.edges.resize(simd::kWidth * (count + 1));
-  const std::size_t found =
-      kernels.sweep_leaves(leaves_.data(), leaf_faces_.data(), entered, count, words, scratch.edges.data());
+  if (counters != nullptr) counters->leaves_tested += entered.count;
+  return entered;
+}
+
+std::span<const EdgeId> SearchTree::read(const Entered& entered, const simd::EyeWords& eye, SearchScratch& scratch,
+                                         SimdLevel level) const {
+  const std::size_t room = simd::kWidth * (entered.count + 1);
+  if (scratch.edges.size() < room) scratch.edges.resize(room);
+  const std::size_t found = simd::kernels(level).sweep_leaves(leaves_.data(), leaf_faces_.data(), entered.leaves,
+                                                              entered.count, eye, scratch.edges.data());
   return {scratch.edges.data(), found};
 }
 

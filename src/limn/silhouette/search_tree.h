@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct SearchCounters {
 /// Memory that queries use, kept from one to the next. One a thread.
 struct SearchScratch {
   LineVector<std::uint32_t> current, next, edges;
+  std::vector<EdgeId> all;  ///< what brute force found
 };
 
 /// A tree of edge clusters, 16 children to a node, that finds the silhouette by leaving out whatever surely faces one
@@ -52,13 +54,27 @@ class SearchTree {
   std::span<const EdgeId> find_flat(const Eye& eye, SearchScratch& scratch, SearchCounters* counters = nullptr,
                                     SimdLevel level = best_simd_level()) const;
 
+  /// As find(), unless more than `most_leaves` leaves are entered: then nothing, and brute force is the faster way.
+  std::optional<std::span<const EdgeId>> find_if_sparse(const Eye& eye, std::size_t most_leaves, SearchScratch& scratch,
+                                                        SimdLevel level = best_simd_level()) const;
+
   std::size_t leaf_count() const { return leaves_.size(); }
   std::size_t edge_count() const { return edge_count_; }
   std::size_t memory_bytes() const;
 
  private:
-  std::span<const EdgeId> sweep_from(std::size_t level, const Eye& eye, SearchScratch& scratch,
-                                     SearchCounters* counters, SimdLevel simd) const;
+  friend class MovingSilhouette;
+  friend class SearchTreeFile;
+
+  /// Leaves that may hold silhouettes, in scratch.current; null for all. \param top the level to begin at
+  struct Entered {
+    const std::uint32_t* leaves;
+    std::size_t count;
+  };
+  Entered enter(std::size_t top, const simd::EyeWords& eye, SearchScratch& scratch, SearchCounters* counters,
+                SimdLevel level) const;
+  std::span<const EdgeId> read(const Entered& entered, const simd::EyeWords& eye, SearchScratch& scratch,
+                               SimdLevel level) const;
 
   std::span<const Plane> planes_;
   QuantizedFrame frame_;

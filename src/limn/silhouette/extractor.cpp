@@ -1,0 +1,49 @@
+#include "limn/silhouette/extractor.h"
+
+#include <algorithm>
+
+namespace limn {
+namespace {
+
+/// Above this share of leaves entered brute force is faster: it reads each edge in a third of the bytes that a leaf
+/// takes. By then the nodes have cost a twentieth of brute force (docs/extraction.md).
+constexpr double kSparse = 0.6;
+
+}  // namespace
+
+SilhouetteExtractor::SilhouetteExtractor(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes,
+                                         SearchMethod method)
+    : method_(method) {
+  const QuantizedFrame frame = quantized_frame(mesh, planes);
+  if (method != SearchMethod::kBrute) tree_ = SearchTree(leaf_clusters(mesh, topology, planes), planes, frame);
+  if (method == SearchMethod::kBrute || method == SearchMethod::kAuto)
+    blocks_ = EdgeBlocks(block_clusters(mesh, topology), planes, frame);
+}
+
+std::span<const EdgeId> SilhouetteExtractor::find(const Eye& eye, SearchScratch& scratch, SimdLevel level) const {
+  switch (method_) {
+    case SearchMethod::kTree:
+      return tree_.find(eye, scratch, nullptr, level);
+    case SearchMethod::kFlat:
+      return tree_.find_flat(eye, scratch, nullptr, level);
+    case SearchMethod::kAuto: {
+      const auto most = static_cast<std::size_t>(kSparse * static_cast<double>(tree_.leaf_count()));
+      if (const auto found = tree_.find_if_sparse(eye, most, scratch, level)) return *found;
+      break;
+    }
+    case SearchMethod::kBrute:
+      break;
+  }
+  blocks_.extract(eye, scratch.all, level);
+  return scratch.all;
+}
+
+std::vector<EdgeId> SilhouetteExtractor::find_sorted(const Eye& eye) const {
+  SearchScratch scratch;
+  const std::span<const EdgeId> found = find(eye, scratch);
+  std::vector<EdgeId> edges(found.begin(), found.end());
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+}  // namespace limn
