@@ -94,7 +94,10 @@ const std::string& Context::last_severe_message() const {
 Result<const Program*> Context::program(const ProgramFiles& files) {
   ProgramText text;
   const std::pair<const std::string*, std::string*> stages[] = {
-      {&files.vertex, &text.vertex}, {&files.geometry, &text.geometry}, {&files.fragment, &text.fragment}};
+      {&files.vertex, &text.vertex},
+      {&files.geometry, &text.geometry},
+      {&files.fragment, &text.fragment},
+      {&files.compute, &text.compute}};
   std::string key;
   for (const auto& [name, source] : stages) {
     if (name->empty()) continue;
@@ -106,7 +109,7 @@ Result<const Program*> Context::program(const ProgramFiles& files) {
   std::unique_ptr<Program>& program = impl_->programs[key];
   if (!program) {
     make_current();
-    auto linked = Program::link(text, files.vertex + " + " + files.fragment);
+    auto linked = Program::link(text, files.compute.empty() ? files.vertex + " + " + files.fragment : files.compute);
     if (!linked) return tl::unexpected(linked.error());
     program = std::move(*linked);
   }

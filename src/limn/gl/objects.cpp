@@ -1,5 +1,7 @@
 #include "limn/gl/objects.h"
 
+#include <algorithm>
+#include <cassert>
 #include <epoxy/gl.h>
 
 namespace limn::gl {
@@ -23,6 +25,39 @@ Buffer make_buffer(std::span<const std::byte> bytes) {
   glCreateBuffers(1, &id);
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), 0);
   return Buffer(id);
+}
+
+Buffer make_storage(std::size_t bytes) {
+  constexpr std::size_t kLeast = 16;  // a buffer of no bytes cannot be bound
+  unsigned id = 0;
+  glCreateBuffers(1, &id);
+  glNamedBufferStorage(id, static_cast<GLsizeiptr>(std::max(bytes, kLeast)), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  Buffer buffer(id);
+  clear_storage(buffer);
+  return buffer;
+}
+
+void clear_storage(const Buffer& buffer) {
+  glClearNamedBufferData(buffer.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
+void write_storage(const Buffer& buffer, std::span<const std::byte> bytes) {
+  if (!bytes.empty()) glNamedBufferSubData(buffer.id(), 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+}
+
+void read_buffer(unsigned buffer, std::size_t offset_bytes, std::span<std::byte> bytes) {
+  if (bytes.empty()) return;
+  glGetNamedBufferSubData(buffer, static_cast<GLintptr>(offset_bytes), static_cast<GLsizeiptr>(bytes.size()),
+                          bytes.data());
+}
+
+Texture make_uint_texture(const Buffer& buffer, std::size_t uints_a_texel) {
+  assert(uints_a_texel >= 1 && uints_a_texel <= 4);
+  constexpr GLenum kFormats[] = {GL_R32UI, GL_RG32UI, GL_RGB32UI, GL_RGBA32UI};
+  unsigned id = 0;
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+  glTextureBuffer(id, kFormats[uints_a_texel - 1], buffer.id());
+  return Texture(id);
 }
 
 Framebuffer make_framebuffer() {

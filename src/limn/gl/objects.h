@@ -47,6 +47,21 @@ Buffer make_buffer_of(std::span<const T> values) {
   return make_buffer(std::as_bytes(values));
 }
 
+/// A buffer that shaders write: zeros, at least 16 bytes.
+Buffer make_storage(std::size_t bytes);
+
+/// Makes it zeros again.
+void clear_storage(const Buffer& buffer);
+
+/// Overwrites the start of a buffer that make_storage made. \pre it is large enough
+void write_storage(const Buffer& buffer, std::span<const std::byte> bytes);
+
+/// Copies from a buffer, waiting for the device to finish with it.
+void read_buffer(unsigned buffer, std::size_t offset_bytes, std::span<std::byte> bytes);
+
+/// Shows a buffer to shaders as texels of 1 to 4 uints (usamplerBuffer); the buffer must outlive it.
+Texture make_uint_texture(const Buffer& buffer, std::size_t uints_a_texel);
+
 Framebuffer make_framebuffer();
 VertexArray make_vertex_array();
 

@@ -65,7 +65,10 @@ Result<void> attach(GLuint program, GLenum stage, const std::string& text, const
 Result<std::unique_ptr<Program>> Program::link(const ProgramText& text, const std::string& name) {
   std::unique_ptr<Program> program(new Program(glCreateProgram()));
   const std::pair<GLenum, const std::string*> stages[] = {
-      {GL_VERTEX_SHADER, &text.vertex}, {GL_GEOMETRY_SHADER, &text.geometry}, {GL_FRAGMENT_SHADER, &text.fragment}};
+      {GL_VERTEX_SHADER, &text.vertex},
+      {GL_GEOMETRY_SHADER, &text.geometry},
+      {GL_FRAGMENT_SHADER, &text.fragment},
+      {GL_COMPUTE_SHADER, &text.compute}};
   for (const auto& [stage, source] : stages) {
     if (auto attached = attach(program->id_, stage, *source, name); !attached) return tl::unexpected(attached.error());
   }
@@ -93,6 +96,9 @@ int Program::location(const char* uniform) const {
 
 void Program::set(const char* uniform, int value) const {
   glProgramUniform1i(id_, location(uniform), value);
+}
+void Program::set(const char* uniform, unsigned value) const {
+  glProgramUniform1ui(id_, location(uniform), value);
 }
 void Program::set(const char* uniform, float value) const {
   glProgramUniform1f(id_, location(uniform), value);

@@ -9,17 +9,19 @@
 
 namespace limn::gl {
 
-/// The shader files of a program and what is defined in all of them.
+/// The shader files of a program and what is defined in all of them. One that computes has a compute stage alone.
 struct ProgramFiles {
   std::string vertex;
   std::string geometry;  ///< empty: none
   std::string fragment;
   std::vector<std::string> defines;  ///< "NAME VALUE" each
+  std::string compute = {};
 };
 
-/// The texts of a program's stages, ready to compile; geometry may be empty.
+/// The texts of a program's stages, ready to compile; those it does not have are empty.
 struct ProgramText {
   std::string vertex, geometry, fragment;
+  std::string compute = {};
 };
 
 /// A linked program, deleted with its owner. Setting a uniform that the linked program does not use does nothing.
@@ -34,6 +36,7 @@ class Program {
 
   void use() const;
   void set(const char* uniform, int value) const;
+  void set(const char* uniform, unsigned value) const;
   void set(const char* uniform, float value) const;
   void set(const char* uniform, const Vec2& value) const;
   void set(const char* uniform, const Vec3& value) const;
