@@ -93,11 +93,10 @@ const std::string& Context::last_severe_message() const {
 
 Result<const Program*> Context::program(const ProgramFiles& files) {
   ProgramText text;
-  const std::pair<const std::string*, std::string*> stages[] = {
-      {&files.vertex, &text.vertex},
-      {&files.geometry, &text.geometry},
-      {&files.fragment, &text.fragment},
-      {&files.compute, &text.compute}};
+  const std::pair<const std::string*, std::string*> stages[] = {{&files.vertex, &text.vertex},
+                                                                {&files.geometry, &text.geometry},
+                                                                {&files.fragment, &text.fragment},
+                                                                {&files.compute, &text.compute}};
   std::string key;
   for (const auto& [name, source] : stages) {
     if (name->empty()) continue;

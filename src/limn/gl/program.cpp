@@ -64,11 +64,10 @@ Result<void> attach(GLuint program, GLenum stage, const std::string& text, const
 
 Result<std::unique_ptr<Program>> Program::link(const ProgramText& text, const std::string& name) {
   std::unique_ptr<Program> program(new Program(glCreateProgram()));
-  const std::pair<GLenum, const std::string*> stages[] = {
-      {GL_VERTEX_SHADER, &text.vertex},
-      {GL_GEOMETRY_SHADER, &text.geometry},
-      {GL_FRAGMENT_SHADER, &text.fragment},
-      {GL_COMPUTE_SHADER, &text.compute}};
+  const std::pair<GLenum, const std::string*> stages[] = {{GL_VERTEX_SHADER, &text.vertex},
+                                                          {GL_GEOMETRY_SHADER, &text.geometry},
+                                                          {GL_FRAGMENT_SHADER, &text.fragment},
+                                                          {GL_COMPUTE_SHADER, &text.compute}};
   for (const auto& [stage, source] : stages) {
     if (auto attached = attach(program->id_, stage, *source, name); !attached) return tl::unexpected(attached.error());
   }

@@ -40,9 +40,9 @@ gl::Texture make_pyramid(std::size_t elements) {
 Result<void> check_size(const CompactorOptions& options) {
   const gl::Limits limits = gl::limits();
   const std::size_t largest = std::max(Compactor::padded_size(options.elements), options.capacity) * sizeof(unsigned);
-  const bool fits = options.elements <= kMostElements && largest <= limits.storage_bytes &&
-                    (options.method == Compaction::kScan ||
-                     (std::size_t{1} << top_level(options.elements)) <= limits.texture_side);
+  const bool fits =
+      options.elements <= kMostElements && largest <= limits.storage_bytes &&
+      (options.method == Compaction::kScan || (std::size_t{1} << top_level(options.elements)) <= limits.texture_side);
   if (fits) return {};
   return fail(ErrorCode::kNoGraphics,
               "the graphics device cannot compact " + std::to_string(options.elements) + " elements into " +

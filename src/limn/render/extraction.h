@@ -19,7 +19,7 @@ namespace limn {
 /// An object of a scene, read while a SceneExtractor is built and not needed after that.
 struct SceneObject {
   const Topology* topology = nullptr;
-  std::span<const Plane> planes;  ///< face_planes() of its mesh
+  std::span<const Plane> planes;    ///< face_planes() of its mesh
   std::span<const Vec3> positions;  ///< of its mesh; needed for silhouetteness only
 };
 

@@ -21,10 +21,10 @@ struct SceneTables {
   std::vector<EdgeId> first_edge;
   std::vector<std::uint8_t> careful;  ///< an object: whether a normal has subnormal components
 
-  std::vector<Plane> planes;                       ///< a face
-  std::vector<std::uint32_t> face_objects;         ///< a face
-  std::vector<std::array<EdgeId, 3>> face_edges;   ///< a face, kInvalidId where degenerate; if asked for
-  std::vector<std::array<FaceId, 2>> edge_faces;   ///< an edge; the first twice where it has not exactly two
+  std::vector<Plane> planes;                      ///< a face
+  std::vector<std::uint32_t> face_objects;        ///< a face
+  std::vector<std::array<EdgeId, 3>> face_edges;  ///< a face, kInvalidId where degenerate; if asked for
+  std::vector<std::array<FaceId, 2>> edge_faces;  ///< an edge; the first twice where it has not exactly two
   std::vector<Vec4> edge_middles;  ///< an edge: its midpoint and β, or 0 where it is always 1; if asked for
 };
 
