@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "limn/silhouette/brute.h"
 
 #include "support/stable.h"
+#include "support/temp_folder.h"
 
 namespace limn {
 namespace {
@@ -127,6 +129,15 @@ class ExtractionTest : public testing::Test {
     }
   }
 
+  void expect_facing(std::span<const Model> model, std::span<const Eye> eye) {
+    SceneExtractor extractor = make(model);
+    ASSERT_TRUE(extractor.extract(eye));
+    std::vector<std::uint8_t> expected;
+    classify_faces(model[0].planes, eye[0], expected);
+    EXPECT_TRUE(extractor.read_facing() == expected)
+        << model[0].name << " from " << eye[0].at.x << " " << eye[0].at.y << " " << eye[0].at.z;
+  }
+
   std::unique_ptr<gl::Context> context_;
 };
 
@@ -159,42 +170,77 @@ TEST_F(ExtractionTest, ASceneOfThemAllIsExtractedInOnePassEachObjectFromItsOwnEy
 
 TEST_F(ExtractionTest, FacingIsThatOfThePredicateBitForBit) {
   for (const Model& model : awkward_models()) {
-    SceneExtractor extractor = make(std::span(&model, 1));
-    for (const Eye& eye : eyes_around(model, 6, 2)) {
-      ASSERT_TRUE(extractor.extract(std::span(&eye, 1)));
-      std::vector<std::uint8_t> expected;
-      classify_faces(model.planes, eye, expected);
-      EXPECT_EQ(extractor.read_facing(), expected) << model.name;
-    }
+    for (const Eye& eye : eyes_around(model, 6, 2))
+      expect_facing(std::span(&model, 1), std::span(&eye, 1));
   }
 }
 
-/// A sheet of separate triangles whose planes and eyes are built to cancel, at every magnitude a float has.
-TEST_F(ExtractionTest, FacingOfPlanesThatNearlyCancelIsExactDownToSubnormalNumbers) {
-  Random random(5);
+/// Faces (without edges) whose planes nearly cancel for the eye, at a magnitude; some have subnormal normals.
+Model cancelling_planes(int exponent, Eye& eye) {
+  Random random(static_cast<std::uint64_t>(exponent + 200));
   const auto any_float = [&random](int low, int high) {
-    const double magnitude = std::ldexp(random.uniform(1.0, 2.0),
-                                        low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low))));
+    const int e = low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low)));
+    const double magnitude = std::ldexp(random.uniform(1.0, 2.0), e);
     return static_cast<float>(random.below(2) == 0 ? magnitude : -magnitude);
   };
-  for (int exponent = -149; exponent < 60; exponent += 6) {
-    Model model("planes", Mesh{});
-    const Eye eye{
-        Vec3(any_float(exponent, exponent + 3), any_float(exponent, exponent + 3), any_float(exponent, exponent + 3)),
-        false};
-    const std::size_t faces = 3000;
-    model.topology.faces.resize(faces);
-    for (std::size_t f = 0; f < faces; ++f) {
-      Plane p{any_float(-f % 40 == 0 ? -149 : -20, 0), any_float(-10, 0), any_float(-30, 0), 0};
-      const float sum = p.nx * eye.at.x + p.ny * eye.at.y + p.nz * eye.at.z;
-      p.d = std::bit_cast<float>(std::bit_cast<std::uint32_t>(-sum) + static_cast<std::uint32_t>(random.below(3)));
-      model.planes.push_back(p);
-    }
-    SceneExtractor extractor = make(std::span(&model, 1));
-    ASSERT_TRUE(extractor.extract(std::span(&eye, 1)));
-    std::vector<std::uint8_t> expected;
-    classify_faces(model.planes, eye, expected);
-    EXPECT_EQ(extractor.read_facing(), expected) << "exponent " << exponent;
+  const auto coordinate = [&] { return any_float(exponent, exponent + 3); };
+  eye = {Vec3(coordinate(), coordinate(), coordinate()), random.below(4) == 0};
+  Model model("planes", Mesh{});
+  for (int f = 0; f < 3000; ++f) {
+    Plane p{any_float(f % 40 == 0 ? -149 : -20, 0), any_float(-10, 0), any_float(-30, 0), 0};
+    const float sum = p.nx * eye.at.x + p.ny * eye.at.y + p.nz * eye.at.z;
+    p.d = std::bit_cast<float>(std::bit_cast<std::uint32_t>(-sum) + static_cast<std::uint32_t>(random.below(3)));
+    model.planes.push_back(p);
+  }
+  model.topology.faces.resize(model.planes.size());
+  return model;
+}
+
+TEST_F(ExtractionTest, FacingOfPlanesThatNearlyCancelIsExactDownToSubnormalNumbers) {
+  for (int exponent = -149; exponent < 60; exponent += 3) {
+    Eye eye;
+    const Model model = cancelling_planes(exponent, eye);
+    expect_facing(std::span(&model, 1), std::span(&eye, 1));
+  }
+}
+
+/// The shaders' folder, copied, the predicate's fast way made to take subnormal numbers for 0 as GLSL allows.
+void write_flushing_shaders(const test::TempFolder& folder) {
+  const std::filesystem::path shaders = std::filesystem::path(LIMN_SOURCE_DIR) / "shaders";
+  for (const auto& file : std::filesystem::directory_iterator(shaders))
+    folder.write(file.path().filename().string(), test::slurp(file.path()));
+  std::string text = test::slurp(shaders / "facing.glsl");
+  const std::size_t begin = text.find("  precise float side =");
+  const std::size_t end = text.find('\n', begin);
+  ASSERT_NE(begin, std::string::npos);
+  text.replace(begin, end - begin, R"(
+  vec4 q = vec4(flushed(p.x), flushed(p.y), flushed(p.z), flushed(p.w));
+  precise float x = flushed(q.x * flushed(at.x));
+  precise float y = flushed(q.y * flushed(at.y));
+  precise float z = flushed(q.z * flushed(at.z));
+  precise float xy = flushed(x + y);
+  precise float xyz = flushed(xy + z);
+  precise float side = flushed(xyz + ((eye.w & kEyeOrthographic) != 0u ? 0.0 : q.w));)");
+  const std::size_t function = text.find("bool faces_eye(");
+  ASSERT_NE(function, std::string::npos);
+  text.insert(function, "float flushed(float v) { return (floatBitsToUint(v) & 0x7f800000u) == 0u ? 0.0 : v; }\n");
+  folder.write("facing.glsl", text);
+}
+
+TEST_F(ExtractionTest, FacingIsTheSameOnDevicesThatFlushSubnormalNumbers) {
+  const test::TempFolder folder;
+  write_flushing_shaders(folder);
+  auto made = gl::Context::create({folder.path()});
+  ASSERT_TRUE(made);
+  context_ = std::move(*made);
+  for (int exponent = -149; exponent < 60; exponent += 3) {
+    Eye eye;
+    const Model model = cancelling_planes(exponent, eye);
+    expect_facing(std::span(&model, 1), std::span(&eye, 1));
+  }
+  for (const Model& model : awkward_models()) {
+    for (const Eye& eye : eyes_around(model, 2, 6))
+      expect_facing(std::span(&model, 1), std::span(&eye, 1));
   }
 }
 

@@ -5,25 +5,26 @@
 namespace limn::gl {
 
 Timer::Timer() {
-  glCreateQueries(GL_TIME_ELAPSED, 1, &query_);
+  glCreateQueries(GL_TIMESTAMP, 2, queries_);
 }
 
 Timer::~Timer() {
-  glDeleteQueries(1, &query_);
+  glDeleteQueries(2, queries_);
 }
 
 void Timer::start() const {
-  glBeginQuery(GL_TIME_ELAPSED, query_);
+  glQueryCounter(queries_[0], GL_TIMESTAMP);
 }
 
 void Timer::stop() const {
-  glEndQuery(GL_TIME_ELAPSED);
+  glQueryCounter(queries_[1], GL_TIMESTAMP);
 }
 
 double Timer::milliseconds() const {
-  GLuint64 nanoseconds = 0;
-  glGetQueryObjectui64v(query_, GL_QUERY_RESULT, &nanoseconds);
-  return static_cast<double>(nanoseconds) * 1e-6;
+  GLuint64 times_ns[2] = {};
+  for (int i = 0; i < 2; ++i)
+    glGetQueryObjectui64v(queries_[i], GL_QUERY_RESULT, &times_ns[i]);
+  return static_cast<double>(times_ns[1] - times_ns[0]) * 1e-6;
 }
 
 void finish() {

@@ -2,8 +2,8 @@
 
 namespace limn::gl {
 
-/// How long the device works on what is submitted between start() and stop(). Needs a current context; timers must not
-/// overlap.
+/// Time on the device's own clock between having done all that was submitted before start() and all before stop().
+/// Needs a current context. By time stamps: Mesa's software device counts no computing as elapsed time.
 class Timer {
  public:
   Timer();
@@ -17,7 +17,7 @@ class Timer {
   double milliseconds() const;
 
  private:
-  unsigned query_ = 0;
+  unsigned queries_[2] = {};
 };
 
 /// Waits until the device has done all that was submitted.

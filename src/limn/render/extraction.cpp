@@ -32,7 +32,7 @@ std::vector<T> read_values(const gl::Buffer& buffer, std::size_t count) {
   return values;
 }
 
-/// The first compactor of a method, made when it is first asked for.
+/// A compactor for each method, made when it is first asked for.
 struct Compactors {
   std::array<std::optional<Compactor>, 2> made;
   const Compactor* last = nullptr;
@@ -63,7 +63,8 @@ struct TexelTable {
   template <class T>
   void upload(std::span<const T> values) {
     buffer = values.empty() ? gl::make_storage(0) : gl::make_buffer_of(values);
-    texture = gl::make_uint_texture(buffer, sizeof(T) / sizeof(unsigned));
+    constexpr std::size_t kUintBytes = 4;
+    texture = gl::make_uint_texture(buffer, sizeof(T) / kUintBytes);
   }
 };
 
