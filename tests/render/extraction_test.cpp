@@ -238,6 +238,18 @@ TEST_F(ExtractionTest, FacingIsTheSameOnDevicesThatFlushSubnormalNumbers) {
     const Model model = cancelling_planes(exponent, eye);
     expect_facing(std::span(&model, 1), std::span(&eye, 1));
   }
+  // Subnormal numbers times large ones: what is flushed is large.
+  Model subnormal_normal("a subnormal normal", Mesh{});
+  subnormal_normal.planes = {
+      {0x1p-130f, 0.5f, 0, -1.03f}, {0x1p-130f, 0.5f, 0, -1.2f}, {-0x1p-140f, 0.5f, 0, -0.99999f}};
+  subnormal_normal.topology.faces.resize(3);
+  const Eye far_off{Vec3(0x1p126f, 2, 0), false};
+  expect_facing(std::span(&subnormal_normal, 1), std::span(&far_off, 1));
+  Model large_normal("a subnormal eye", Mesh{});
+  large_normal.planes = {{0x1p126f, 1, 0, 0}, {-0x1p126f, 1, 0, 0}};
+  large_normal.topology.faces.resize(2);
+  const Eye subnormal_eye{Vec3(0x1p-130f, -0x1p-5f, 0), false};
+  expect_facing(std::span(&large_normal, 1), std::span(&subnormal_eye, 1));
   for (const Model& model : awkward_models()) {
     for (const Eye& eye : eyes_around(model, 2, 6))
       expect_facing(std::span(&model, 1), std::span(&eye, 1));
