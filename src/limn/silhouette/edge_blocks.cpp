@@ -36,11 +36,12 @@ EdgeBlocks::EdgeBlocks(std::span<const BlockCluster> clusters, std::span<const P
     : storage_(storage), planes_(planes), frame_(frame) {
   for (const BlockCluster& cluster : clusters)
     add_block(cluster);
-  const std::size_t groups = faces_.size() / simd::kWidth;
+  // Kernels read a full block's planes wherever they begin.
+  const std::size_t groups = faces_.size() / simd::kWidth + simd::kBlockFaces / simd::kWidth;
   if (storage == Planes::kQuantized)
-    quantized_.resize(groups);
+    quantized_.resize(groups, simd::PlaneGroup{});
   else
-    exact_.resize(groups);
+    exact_.resize(groups, simd::ExactGroup{});
   parallel_for(faces_.size(), 65536, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Plane& plane = planes[faces_[i]];

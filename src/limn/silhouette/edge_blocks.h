@@ -11,7 +11,7 @@
 
 namespace limn {
 
-/// Brute force at the speed of memory: every edge is tested, in blocks of up to 128 faces and 192 edges between them,
+/// Brute force at the speed of memory: every edge is tested, in blocks of up to 128 faces and 128 edges between them,
 /// so that an edge finds its faces' bits in two shuffles instead of two loads from anywhere.
 class EdgeBlocks {
  public:

@@ -26,7 +26,7 @@ struct EdgeCluster {
 /// What a leaf of the search tree holds: faces that look nearly the same way.
 using LeafCluster = EdgeCluster<16, 16>;
 /// What the brute force takes at a time: faces close to each other.
-using BlockCluster = EdgeCluster<128, 192>;
+using BlockCluster = EdgeCluster<128, 128>;
 
 /// Parts every edge with two faces (EdgeClass::kManifold, kInconsistent) among clusters, grown over the mesh from face
 /// to face, the nearest in direction first, from seeds along a space-filling curve.

@@ -82,9 +82,17 @@ std::size_t sweep_leaves(const Leaf* nodes, const std::uint32_t* leaf_faces, con
   return static_cast<std::size_t>(end - edges);
 }
 
-/// Facing bits of a block: faces 0 … 63 and 64 … 127.
+/// The signs of 64 numbers as bits, in order.
+inline std::uint64_t sign_bits(const __m512i* values) {
+  const __m512i words = _mm512_packs_epi32(values[0], values[1]), more = _mm512_packs_epi32(values[2], values[3]);
+  // packs works within quarters of 128 bits; what it interleaves is put back in order here.
+  const __m512i order = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
+  return _mm512_movepi8_mask(_mm512_permutexvar_epi32(order, _mm512_packs_epi16(words, more)));
+}
+
+/// Facing bits of a block's 128 faces.
 struct FacingBits {
-  std::uint64_t low, high;
+  std::uint64_t half[2];
 };
 
 /// Bit `face` of the block for each of 64 sides (see EdgeSides): one shuffle fetches the byte, another the bit in it.
@@ -95,8 +103,8 @@ inline __mmask64 side_bits(__m512i front, __m512i sides) {
 }
 
 std::uint32_t* append_slots(const Block& block, const EdgeSides* sides, FacingBits bits, std::uint32_t* end) {
-  const __m512i front =
-      _mm512_broadcast_i32x4(_mm_set_epi64x(static_cast<long long>(bits.high), static_cast<long long>(bits.low)));
+  const __m512i front = _mm512_broadcast_i32x4(
+      _mm_set_epi64x(static_cast<long long>(bits.half[1]), static_cast<long long>(bits.half[0])));
   const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   for (std::uint32_t s = block.sides; s < block.sides + block.sides_count; ++s) {
     std::uint64_t found =
@@ -114,11 +122,18 @@ std::uint32_t* append_slots(const Block& block, const EdgeSides* sides, FacingBi
   return end;
 }
 
-inline void put_bits(FacingBits& bits, int group, std::uint64_t mask) {
-  if (group < 4)
-    bits.low |= mask << (16 * group);
-  else
-    bits.high |= mask << (16 * (group - 4));
+/// The exact facing of what the quantized planes leave open.
+[[gnu::noinline]] void settle(const Block& block, const PlaneGroup* planes, const std::uint32_t* faces,
+                              const EyeWords& eye, FacingBits& bits) {
+  const __m512i xy = pairs(eye.x, eye.y), zh = pairs(eye.z, eye.h), error = _mm512_set1_epi32(eye.error);
+  for (int g = 0; g < block.groups; ++g) {
+    const std::size_t group = block.group + static_cast<std::size_t>(g);
+    const std::uint64_t unsure = _mm512_cmple_epi32_mask(_mm512_abs_epi32(values(planes[group], xy, zh)), error);
+    if (unsure == 0) continue;
+    const std::uint64_t front = eye.exact(eye.context, faces + kWidth * group, static_cast<std::uint32_t>(unsure));
+    const int shift = 16 * (g % 4);
+    bits.half[g / 4] = (bits.half[g / 4] & ~(unsure << shift)) | front << shift;
+  }
 }
 
 std::size_t sweep_blocks(const Block* blocks, std::size_t count, const PlaneGroup* planes, const std::uint32_t* faces,
@@ -126,16 +141,19 @@ std::size_t sweep_blocks(const Block* blocks, std::size_t count, const PlaneGrou
   const __m512i xy = pairs(eye.x, eye.y), zh = pairs(eye.z, eye.h), error = _mm512_set1_epi32(eye.error);
   std::uint32_t* end = slots;
   for (std::size_t i = 0; i < count; ++i) {
-    FacingBits bits{0, 0};
-    for (int g = 0; g < blocks[i].groups; ++g) {
-      const std::size_t group = blocks[i].group + static_cast<std::size_t>(g);
-      const __m512i value = values(planes[group], xy, zh);
-      const __mmask16 unsure = _mm512_cmple_epi32_mask(_mm512_abs_epi32(value), error);
-      std::uint32_t front = _mm512_cmpgt_epi32_mask(value, error);
-      if (unsure != 0) [[unlikely]]
-        front |= eye.exact(eye.context, faces + kWidth * group, unsure);
-      put_bits(bits, g, front);
+    const PlaneGroup* group = planes + blocks[i].group;
+    FacingBits bits;
+    __m512i least = _mm512_set1_epi32(0x7fffffff);
+    for (int half = 0; half < 2; ++half) {
+      __m512i value[4];
+      for (int g = 0; g < 4; ++g) {
+        value[g] = values(group[4 * half + g], xy, zh);
+        least = _mm512_min_epi32(least, _mm512_abs_epi32(value[g]));
+      }
+      bits.half[half] = ~sign_bits(value);
     }
+    if (_mm512_cmple_epi32_mask(least, error) != 0) [[unlikely]]
+      settle(blocks[i], planes, faces, eye, bits);
     end = append_slots(blocks[i], sides, bits, end);
   }
   return static_cast<std::size_t>(end - slots);
@@ -147,13 +165,15 @@ std::size_t sweep_exact_blocks(const Block* blocks, std::size_t count, const Exa
   const __mmask16 with_d = eye.orthographic ? 0 : 0xffff;
   std::uint32_t* end = slots;
   for (std::size_t i = 0; i < count; ++i) {
-    FacingBits bits{0, 0};
-    for (int g = 0; g < blocks[i].groups; ++g) {
-      const ExactGroup& group = planes[blocks[i].group + static_cast<std::size_t>(g)];
-      __m512 side = _mm512_add_ps(_mm512_mul_ps(_mm512_load_ps(group.x), x), _mm512_mul_ps(_mm512_load_ps(group.y), y));
-      side = _mm512_add_ps(side, _mm512_mul_ps(_mm512_load_ps(group.z), z));
-      side = _mm512_add_ps(side, _mm512_maskz_load_ps(with_d, group.d));
-      put_bits(bits, g, _mm512_cmp_ps_mask(side, _mm512_setzero_ps(), _CMP_GT_OQ));
+    const ExactGroup* group = planes + blocks[i].group;
+    FacingBits bits{{0, 0}};
+    for (int g = 0; g < kBlockFaces / kWidth; ++g) {
+      __m512 side =
+          _mm512_add_ps(_mm512_mul_ps(_mm512_load_ps(group[g].x), x), _mm512_mul_ps(_mm512_load_ps(group[g].y), y));
+      side = _mm512_add_ps(side, _mm512_mul_ps(_mm512_load_ps(group[g].z), z));
+      side = _mm512_add_ps(side, _mm512_maskz_load_ps(with_d, group[g].d));
+      bits.half[g / 4] |= static_cast<std::uint64_t>(_mm512_cmp_ps_mask(side, _mm512_setzero_ps(), _CMP_GT_OQ))
+                          << (16 * (g % 4));
     }
     end = append_slots(blocks[i], sides, bits, end);
   }

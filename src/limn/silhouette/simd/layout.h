@@ -45,9 +45,10 @@ struct alignas(64) EdgeSides {
 };
 
 inline constexpr int kBlockFaces = 128;
-inline constexpr int kBlockEdges = 192;
+inline constexpr int kBlockEdges = 128;
 
-/// A block of the brute force: up to 128 faces and up to 192 edges between them.
+/// A block of the brute force: up to 128 faces and up to 128 edges between them. Kernels may read 8 plane groups from
+/// the first on, whether they are the block's or not.
 struct Block {
   std::uint32_t group;  ///< first plane group; faces lie at 16 * group
   std::uint32_t sides;  ///< first EdgeSides; edges lie at 64 * sides
