@@ -1,0 +1,188 @@
+#include "limn/base/linear_program.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "limn/base/random.h"
+
+namespace limn {
+namespace {
+
+constexpr double kParallel = 1e-9;
+constexpr double kDistance = 1e-11;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kSmall = 64;
+
+/// The plane of a half-space in the solver's frame, its normal of unit length.
+struct FramePlane {
+  DVec3 n;
+  double d;
+  std::uint32_t index;
+};
+
+/// An optimum of some of the half-spaces: `point`, or when `escape` is not 0, infinitely far along `escape` from it.
+/// This is where the optimum of cost·x + ε|x|²/2 tends to as ε → 0: its terms of order 1/ε and 1.
+struct Optimum {
+  DVec3 escape{0.0};
+  DVec3 point{0.0};
+  Support support{};
+};
+
+DVec3 without_noise(const DVec3& escape) {
+  return glm::dot(escape, escape) > kParallel * kParallel ? escape : DVec3(0.0);
+}
+
+bool violates(const Optimum& optimum, const FramePlane& plane) {
+  const double rise = glm::dot(plane.n, optimum.escape);
+  if (std::abs(rise) > 1e-13) return rise < 0.0;
+  const double reach = std::max(1.0, glm::dot(optimum.point, optimum.point));
+  return glm::dot(plane.n, optimum.point) + plane.d < -kDistance * std::sqrt(reach);
+}
+
+class Solver {
+ public:
+  Solver(std::span<const FramePlane> planes, const DVec3& cost) : planes_(planes), cost_(cost) {}
+
+  /// \returns whether there is a feasible point
+  bool solve(Optimum& optimum) const {
+    optimum = {without_noise(-cost_), DVec3(0.0), {}};
+    for (std::size_t i = 0; i < planes_.size(); ++i) {
+      if (violates(optimum, planes_[i]) && !solve_in_plane(i, optimum)) return false;
+    }
+    return true;
+  }
+
+ private:
+  /// The optimum of the planes before i, within the plane i.
+  bool solve_in_plane(std::size_t i, Optimum& optimum) const {
+    const FramePlane& plane = planes_[i];
+    optimum.escape = without_noise(glm::dot(cost_, plane.n) * plane.n - cost_);
+    optimum.point = -plane.d * plane.n;
+    optimum.support = {{plane.index}, 1};
+    for (std::size_t j = 0; j < i; ++j) {
+      if (violates(optimum, planes_[j]) && !solve_on_line(i, j, optimum)) return false;
+    }
+    return true;
+  }
+
+  /// The optimum of the planes before j, on the line that the planes i and j share.
+  bool solve_on_line(std::size_t i, std::size_t j, Optimum& optimum) const {
+    const FramePlane& a = planes_[i];
+    const FramePlane& b = planes_[j];
+    const DVec3 across = glm::cross(a.n, b.n);
+    const double sine2 = glm::dot(across, across);
+    // Of parallel planes that face the same way one implies the other, and rounding alone can say otherwise.
+    if (sine2 < kParallel * kParallel) return glm::dot(a.n, b.n) > 0.0;
+    const DVec3 direction = across / std::sqrt(sine2);
+    const DVec3 nearest = (glm::cross(across, b.n) * a.d + glm::cross(a.n, across) * b.d) / sine2;
+    return finish_on_line(i, j, direction, nearest, optimum);
+  }
+
+  bool finish_on_line(std::size_t i, std::size_t j, const DVec3& direction, const DVec3& nearest,
+                      Optimum& optimum) const {
+    double low = -kInfinity;
+    double high = kInfinity;
+    std::size_t low_plane = i;
+    std::size_t high_plane = i;
+    const double slack = kDistance * std::max(1.0, glm::length(nearest));
+    for (std::size_t k = 0; k < j; ++k) {
+      const double slope = glm::dot(planes_[k].n, direction);
+      const double side = glm::dot(planes_[k].n, nearest) + planes_[k].d;
+      if (std::abs(slope) < kParallel) {
+        if (side < -slack) return false;
+        continue;
+      }
+      const double t = -side / slope;
+      if (slope > 0.0 && t > low) {
+        low = t;
+        low_plane = k;
+      } else if (slope < 0.0 && t < high) {
+        high = t;
+        high_plane = k;
+      }
+    }
+    if (low > high + kDistance * std::max({1.0, std::abs(low), std::abs(high)})) return false;
+    place_on_line(i, j, {direction, nearest, low, high, low_plane, high_plane}, optimum);
+    return true;
+  }
+
+  struct Interval {
+    DVec3 direction, nearest;
+    double low, high;
+    std::size_t low_plane, high_plane;
+  };
+
+  void place_on_line(std::size_t i, std::size_t j, const Interval& line, Optimum& optimum) const {
+    const double slope = glm::dot(cost_, line.direction);
+    double t = 0.0;
+    if (slope > kParallel) t = -kInfinity;
+    if (slope < -kParallel) t = kInfinity;
+    std::size_t third = i;
+    if (t <= line.low && line.low > -kInfinity) {
+      t = line.low;
+      third = line.low_plane;
+    } else if (t >= line.high && line.high < kInfinity) {
+      t = line.high;
+      third = line.high_plane;
+    }
+    const bool bounded = std::isfinite(t);
+    optimum.escape = bounded ? DVec3(0.0) : -slope * line.direction;
+    optimum.point = bounded ? line.nearest + t * line.direction : line.nearest;
+    optimum.support = {{planes_[i].index, planes_[j].index, planes_[third].index}, third == i ? 2 : 3};
+  }
+
+  std::span<const FramePlane> planes_;
+  DVec3 cost_;
+};
+
+/// Into the frame of the options and into random order.
+void prepare(std::span<const HalfSpace> half_spaces, const LinearProgramOptions& options,
+             std::span<FramePlane> planes) {
+  Random random(options.seed);
+  for (std::size_t i = 0; i < half_spaces.size(); ++i) {
+    const HalfSpace& half_space = half_spaces[i];
+    const double length = glm::length(half_space.normal);
+    const FramePlane plane = {
+        half_space.normal / length,
+        (half_space.offset + glm::dot(half_space.normal, options.near)) / (length * options.scale),
+        static_cast<std::uint32_t>(i)};
+    const std::size_t at = random.below(i + 1);
+    planes[i] = planes[at];
+    planes[at] = plane;
+  }
+}
+
+LinearProgramResult solve_prepared(std::span<const FramePlane> planes, const DVec3& cost,
+                                   const LinearProgramOptions& options) {
+  const double length = glm::length(cost);
+  const DVec3 unit_cost = length > 0.0 ? cost / length : DVec3(0.0);
+  Optimum optimum;
+  if (!Solver(planes, unit_cost).solve(optimum)) return {};
+  const bool bounded = optimum.escape == DVec3(0.0);
+  const auto begin = optimum.support.index.begin();
+  std::sort(begin, begin + optimum.support.count);
+  return {bounded ? LinearProgramOutcome::kOptimal : LinearProgramOutcome::kUnbounded,
+          options.near + options.scale * optimum.point, optimum.support};
+}
+
+}  // namespace
+
+LinearProgramResult solve_linear_program(std::span<const HalfSpace> half_spaces, const DVec3& cost,
+                                         const LinearProgramOptions& options) {
+  assert(options.scale > 0.0);
+  if (half_spaces.size() <= kSmall) {
+    std::array<FramePlane, kSmall> planes;
+    const std::span<FramePlane> used(planes.data(), half_spaces.size());
+    prepare(half_spaces, options, used);
+    return solve_prepared(used, cost, options);
+  }
+  std::vector<FramePlane> planes(half_spaces.size());
+  prepare(half_spaces, options, planes);
+  return solve_prepared(planes, cost, options);
+}
+
+}  // namespace limn
