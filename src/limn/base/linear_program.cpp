@@ -12,8 +12,12 @@
 namespace limn {
 namespace {
 
-constexpr double kParallel = 1e-9;
-constexpr double kDistance = 1e-11;
+constexpr double kParallel = 1e-12;  // sine of an angle between planes
+constexpr double kRounding = 1e-15;
+constexpr double kLevel = 1e-13;     // slope of a line against a plane
+constexpr double kTie = 1e-9;        // slope of the cost
+constexpr double kDistance = 1e-11;   // in units of the frame: what may be missing of a line
+constexpr double kOnPlane = 1e-12;    // the same: how far outside a point may be
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kSmall = 64;
 
@@ -33,14 +37,15 @@ struct Optimum {
 };
 
 DVec3 without_noise(const DVec3& escape) {
-  return glm::dot(escape, escape) > kParallel * kParallel ? escape : DVec3(0.0);
+  return glm::dot(escape, escape) > kTie * kTie ? escape : DVec3(0.0);
 }
 
 bool violates(const Optimum& optimum, const FramePlane& plane) {
+  // Relative to the escape's length: nearly parallel planes make short escapes of small slope.
   const double rise = glm::dot(plane.n, optimum.escape);
-  if (std::abs(rise) > 1e-13) return rise < 0.0;
+  if (rise * rise > kRounding * kRounding * glm::dot(optimum.escape, optimum.escape)) return rise < 0.0;
   const double reach = std::max(1.0, glm::dot(optimum.point, optimum.point));
-  return glm::dot(plane.n, optimum.point) + plane.d < -kDistance * std::sqrt(reach);
+  return glm::dot(plane.n, optimum.point) + plane.d < -kOnPlane * std::sqrt(reach);
 }
 
 class Solver {
@@ -60,7 +65,8 @@ class Solver {
   /// The optimum of the planes before i, within the plane i.
   bool solve_in_plane(std::size_t i, Optimum& optimum) const {
     const FramePlane& plane = planes_[i];
-    optimum.escape = without_noise(glm::dot(cost_, plane.n) * plane.n - cost_);
+    const DVec3 down = glm::dot(cost_, plane.n) * plane.n - cost_;
+    optimum.escape = without_noise(down - glm::dot(down, plane.n) * plane.n);
     optimum.point = -plane.d * plane.n;
     optimum.support = {{plane.index}, 1};
     for (std::size_t j = 0; j < i; ++j) {
@@ -69,58 +75,68 @@ class Solver {
     return true;
   }
 
-  /// The optimum of the planes before j, on the line that the planes i and j share.
-  bool solve_on_line(std::size_t i, std::size_t j, Optimum& optimum) const {
-    const FramePlane& a = planes_[i];
-    const FramePlane& b = planes_[j];
-    const DVec3 across = glm::cross(a.n, b.n);
-    const double sine2 = glm::dot(across, across);
-    // Of parallel planes that face the same way one implies the other, and rounding alone can say otherwise.
-    if (sine2 < kParallel * kParallel) return glm::dot(a.n, b.n) > 0.0;
-    const DVec3 direction = across / std::sqrt(sine2);
-    const DVec3 nearest = (glm::cross(across, b.n) * a.d + glm::cross(a.n, across) * b.d) / sine2;
-    return finish_on_line(i, j, direction, nearest, optimum);
-  }
-
-  bool finish_on_line(std::size_t i, std::size_t j, const DVec3& direction, const DVec3& nearest,
-                      Optimum& optimum) const {
-    double low = -kInfinity;
-    double high = kInfinity;
-    std::size_t low_plane = i;
-    std::size_t high_plane = i;
-    const double slack = kDistance * std::max(1.0, glm::length(nearest));
-    for (std::size_t k = 0; k < j; ++k) {
-      const double slope = glm::dot(planes_[k].n, direction);
-      const double side = glm::dot(planes_[k].n, nearest) + planes_[k].d;
-      if (std::abs(slope) < kParallel) {
-        if (side < -slack) return false;
-        continue;
-      }
-      const double t = -side / slope;
-      if (slope > 0.0 && t > low) {
-        low = t;
-        low_plane = k;
-      } else if (slope < 0.0 && t < high) {
-        high = t;
-        high_plane = k;
-      }
-    }
-    if (low > high + kDistance * std::max({1.0, std::abs(low), std::abs(high)})) return false;
-    place_on_line(i, j, {direction, nearest, low, high, low_plane, high_plane}, optimum);
-    return true;
-  }
-
+  /// The part of a line that lies in the half-spaces.
   struct Interval {
     DVec3 direction, nearest;
     double low, high;
     std::size_t low_plane, high_plane;
   };
 
+  /// The optimum of the planes before j, on the line that the planes i and j share.
+  bool solve_on_line(std::size_t i, std::size_t j, Optimum& optimum) const {
+    const FramePlane& a = planes_[i];
+    const FramePlane& b = planes_[j];
+    // Across the line within plane a; made orthogonal twice, so that both planes hold the line to within rounding even
+    // where they are nearly parallel.
+    DVec3 across = b.n - glm::dot(b.n, a.n) * a.n;
+    across -= glm::dot(across, a.n) * a.n;
+    const double sine = glm::length(across);
+    // Of parallel planes that face the same way one implies the other, and rounding alone can say otherwise.
+    if (sine < kParallel) return glm::dot(a.n, b.n) > 0.0;
+    across /= sine;
+    const double step = (a.d * glm::dot(a.n, b.n) - b.d) / glm::dot(b.n, across);
+    return finish_on_line(i, j, glm::cross(a.n, across), step * across - a.d * a.n, optimum);
+  }
+
+  bool finish_on_line(std::size_t i, std::size_t j, const DVec3& direction, const DVec3& nearest,
+                      Optimum& optimum) const {
+    Interval line{direction, nearest, -kInfinity, kInfinity, i, i};
+    double lowest = -kInfinity;  // as line.low and line.high, with all half-spaces moved outwards by the tolerance
+    double highest = kInfinity;
+    const double reach = std::max(1.0, glm::length(nearest));
+    for (std::size_t k = 0; k < j; ++k) {
+      const double slope = glm::dot(planes_[k].n, direction);
+      const double side = glm::dot(planes_[k].n, nearest) + planes_[k].d;
+      if (std::abs(slope) < kLevel) {
+        if (side < -kDistance * reach) return false;
+        continue;
+      }
+      const double t = -side / slope;
+      const double slack = kDistance * std::max(reach, std::abs(t)) / std::abs(slope);
+      if (slope > 0.0) {
+        lowest = std::max(lowest, t - slack);
+        if (t > line.low) {
+          line.low = t;
+          line.low_plane = k;
+        }
+      } else {
+        highest = std::min(highest, t + slack);
+        if (t < line.high) {
+          line.high = t;
+          line.high_plane = k;
+        }
+      }
+    }
+    if (lowest > highest) return false;
+    place_on_line(i, j, line, optimum);
+    return true;
+  }
+
   void place_on_line(std::size_t i, std::size_t j, const Interval& line, Optimum& optimum) const {
     const double slope = glm::dot(cost_, line.direction);
     double t = 0.0;
-    if (slope > kParallel) t = -kInfinity;
-    if (slope < -kParallel) t = kInfinity;
+    if (slope > kTie) t = -kInfinity;
+    if (slope < -kTie) t = kInfinity;
     std::size_t third = i;
     if (t <= line.low && line.low > -kInfinity) {
       t = line.low;

@@ -42,9 +42,8 @@ struct LinearProgramResult {
 ///
 /// The optimum is unique: among equally low points the nearest to options.near is taken (the limit, for ε → 0, of
 /// minimizing cost·x + ε|x − near|²). So no bounding box is needed, and slabs, wedges and a cost of 0 are no special
-/// cases. Directions closer than 1e-9 rad count as parallel, points within 1e-11 frame units of a plane as on it (times
-/// their distance from `near` when that is larger): feasible up to that tolerance, and optimal up to it where the half-
-/// spaces meet at angles well above 1e-9.
+/// cases. Feasible up to 1e-10 units of the frame (times the distance from `near` where that is larger). Slopes of the
+/// cost below 1e-9 count as level. Planes that meet at less than 1e-9 rad, yet are no duplicates, can mislead it.
 /// \pre every normal and the options are finite, no normal is 0
 /// Cost: linear in the number of half-spaces, expected over the seeds. Same input, same bits.
 /// Seidel 1991, Small-dimensional linear programming and convex hulls made easy; Sander et al. 2000, section 5.

@@ -4,6 +4,12 @@
 
 namespace limn {
 
+/// One past the last of the edges of a node and its descendants, which begin at node.edge_begin.
+inline std::uint32_t end_of_edges_below(const PaperForest& forest, const PaperForestNode& node) {
+  return node.skip < forest.nodes.size() ? forest.nodes[node.skip].edge_begin
+                                         : static_cast<std::uint32_t>(forest.edges.size());
+}
+
 /// Tests one run of edges, adding those that are silhouettes.
 inline void test_forest_edges(const PaperForest& forest, std::uint32_t begin, std::uint32_t end, const Eye& eye,
                               std::vector<EdgeId>& edges) {

@@ -5,6 +5,7 @@
 
 #include "limn/base/parallel.h"
 #include "limn/silhouette/forest_joins.h"
+#include "limn/silhouette/forest_walk.h"
 #include "limn/silhouette/paper_forest.h"
 
 namespace limn {
@@ -127,6 +128,9 @@ class Layout {
     forest_.root_count = joined_.roots.size();
   }
 
+  /// The edges' middles, beside forest.edges.
+  std::span<const DVec3> middles() const { return middles_; }
+
  private:
   std::uint32_t place(std::uint32_t node) {
     const auto begin = static_cast<std::uint32_t>(forest_.edges.size());
@@ -134,6 +138,7 @@ class Layout {
       const FaceId* faces = prepared_.edges[e].face;
       const std::uint32_t first = local_face(faces[0]);
       forest_.edges.push_back({prepared_.edge_ids[e], {first, local_face(faces[1])}});
+      middles_.push_back(prepared_.edges[e].middle);
     }
     forest_.nodes.push_back({{}, begin, static_cast<std::uint32_t>(forest_.edges.size()), 0});
     return static_cast<std::uint32_t>(forest_.nodes.size() - 1);
@@ -152,51 +157,52 @@ class Layout {
   std::span<const Plane> planes_;
   PaperForest& forest_;
   std::vector<std::uint32_t> local_;
+  std::vector<DVec3> middles_;
 };
-
-std::span<const PaperForestEdge> edges_below(const PaperForest& forest, const PaperForestNode& node) {
-  const std::size_t end = node.skip < forest.nodes.size() ? forest.nodes[node.skip].edge_begin : forest.edges.size();
-  return std::span(forest.edges).subspan(node.edge_begin, end - node.edge_begin);
-}
 
 /// The cone of one node, from all edges below it.
 class NodeCone {
  public:
-  NodeCone(const PaperForest& forest, std::span<const FramedPlane> planes) : forest_(forest), planes_(planes) {}
+  NodeCone(const PaperForest& forest, std::span<const FramedPlane> planes, std::span<const DVec3> middles)
+      : forest_(forest), planes_(planes), middles_(middles) {}
 
   StoredCone of(const PaperForestNode& node) {
+    const std::uint32_t end = end_of_edges_below(forest_, node);
     faces_.clear();
-    for (const PaperForestEdge& edge : edges_below(forest_, node))
+    DVec3 middle(0.0);
+    for (std::uint32_t e = node.edge_begin; e < end; ++e) {
+      const PaperForestEdge& edge = forest_.edges[e];
       faces_.insert(faces_.end(), {edge.face[0], edge.face[1]});
+      middle += middles_[e];
+    }
     std::sort(faces_.begin(), faces_.end());
     faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
     normals_.clear();
     offsets_.clear();
-    DVec3 foot(0.0);
     for (const std::uint32_t face : faces_) {
       if (!planes_[face].usable) return {};
       normals_.push_back(planes_[face].normal);
       offsets_.push_back(planes_[face].offset);
-      foot -= planes_[face].normal * planes_[face].offset;
     }
-    const FaceCluster cluster{normals_, offsets_, foot / static_cast<double>(faces_.size())};
+    const FaceCluster cluster{normals_, offsets_, middle / static_cast<double>(end - node.edge_begin)};
     return stored_cone(anchored_cone(cluster), cluster, forest_.frame);
   }
 
  private:
   const PaperForest& forest_;
   std::span<const FramedPlane> planes_;  ///< beside forest_.planes
+  std::span<const DVec3> middles_;       ///< beside forest_.edges
   std::vector<std::uint32_t> faces_;
   std::vector<DVec3> normals_;
   std::vector<double> offsets_;
 };
 
-void make_cones(PaperForest& forest) {
+void make_cones(std::span<const DVec3> middles, PaperForest& forest) {
   std::vector<FramedPlane> planes;
   for (const Plane& plane : forest.planes)
     planes.push_back(framed_plane(plane, forest.frame));
   parallel_for(forest.nodes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    NodeCone cone(forest, planes);
+    NodeCone cone(forest, planes, middles);
     for (std::size_t i = begin; i < end; ++i)
       forest.nodes[i].cone = cone.of(forest.nodes[i]);
   });
@@ -222,8 +228,9 @@ Result<PaperForest> build_paper_forest(const Mesh& mesh, const Topology& topolog
   const Prepared prepared = prepare(mesh, topology, planes, forest.frame, options);
   Result<JoinedForest> joined = join_forest(prepared.planes, prepared.edges, prepared.links, options, progress);
   if (!joined) return tl::unexpected(joined.error());
-  Layout(*joined, prepared, planes, forest).run();
-  make_cones(forest);
+  Layout layout(*joined, prepared, planes, forest);
+  layout.run();
+  make_cones(layout.middles(), forest);
   return forest;
 }
 
