@@ -81,8 +81,8 @@ TEST(Gilbert, StandsRepeatedNormalsAndOppositeOnes) {
   EXPECT_EQ(closest_to_origin(same).point, DVec3(0, 1, 0));
   const std::vector<DVec3> opposite = {DVec3(0, 1, 0), DVec3(0, -1, 0), DVec3(1, 0, 0)};
   EXPECT_TRUE(closest_to_origin(opposite).contains_origin);
-  const std::vector<DVec3> all = {DVec3(1, 0, 0), DVec3(-1, 0, 0), DVec3(0, 1, 0),
-                                  DVec3(0, -1, 0), DVec3(0, 0, 1), DVec3(0, 0, -1)};
+  const std::vector<DVec3> all = {DVec3(1, 0, 0),  DVec3(-1, 0, 0), DVec3(0, 1, 0),
+                                  DVec3(0, -1, 0), DVec3(0, 0, 1),  DVec3(0, 0, -1)};
   EXPECT_TRUE(closest_to_origin(all).contains_origin);
   EXPECT_TRUE(closest_to_origin({}).contains_origin);
 }

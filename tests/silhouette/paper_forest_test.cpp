@@ -68,8 +68,10 @@ Eye random_eye(Random& random, const Mesh& mesh) {
   const double size = std::max(bounds.diagonal(), 1e-30) / 2;
   const double radii[] = {0.1, 0.7, 1.2, 3, 10, 1e3, 1e6};
   switch (random.below(8)) {
-    case 0: return {random.direction(), true};
-    case 1: return {random.direction() * 1e-6f, true};
+    case 0:
+      return {random.direction(), true};
+    case 1:
+      return {random.direction() * 1e-6f, true};
     case 2:
       if (!mesh.positions.empty()) return {mesh.positions[random.below(mesh.positions.size())], false};
       [[fallthrough]];
@@ -177,8 +179,8 @@ TEST(PaperForest, FacesWithoutAreaAreNeverCulled) {
     std::sort(found.begin(), found.end());
     ASSERT_EQ(found, expected);
     for (const EdgeId e : expected)
-      with_flat_face += topology.edges[e].face[1] == mesh.faces.size() - 1 ||
-                        topology.edges[e].face[0] == mesh.faces.size() - 1;
+      with_flat_face +=
+          topology.edges[e].face[1] == mesh.faces.size() - 1 || topology.edges[e].face[0] == mesh.faces.size() - 1;
   }
   EXPECT_GT(with_flat_face, 0u);
 }

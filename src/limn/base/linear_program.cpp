@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "limn/base/random.h"
@@ -16,8 +17,8 @@ constexpr double kParallel = 1e-12;  // sine of an angle between planes
 constexpr double kRounding = 1e-15;
 constexpr double kLevel = 1e-13;     // slope of a line against a plane
 constexpr double kTie = 1e-9;        // slope of the cost
-constexpr double kDistance = 1e-11;   // in units of the frame: what may be missing of a line
-constexpr double kOnPlane = 1e-12;    // the same: how far outside a point may be
+constexpr double kDistance = 1e-11;  // in units of the frame: what may be missing of a line
+constexpr double kOnPlane = 1e-12;   // the same: how far outside a point may be
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kSmall = 64;
 
@@ -155,29 +156,36 @@ class Solver {
   DVec3 cost_;
 };
 
-/// Into the frame of the options and into random order.
-void prepare(std::span<const HalfSpace> half_spaces, const LinearProgramOptions& options,
-             std::span<FramePlane> planes) {
-  Random random(options.seed);
+/// Into the frame of the options.
+void to_frame(std::span<const HalfSpace> half_spaces, const LinearProgramOptions& options,
+              std::span<FramePlane> planes) {
   for (std::size_t i = 0; i < half_spaces.size(); ++i) {
     const HalfSpace& half_space = half_spaces[i];
     const double length = glm::length(half_space.normal);
-    const FramePlane plane = {
-        half_space.normal / length,
-        (half_space.offset + glm::dot(half_space.normal, options.near)) / (length * options.scale),
-        static_cast<std::uint32_t>(i)};
-    const std::size_t at = random.below(i + 1);
-    planes[i] = planes[at];
-    planes[at] = plane;
+    planes[i] = {half_space.normal / length,
+                 (half_space.offset + glm::dot(half_space.normal, options.near)) / (length * options.scale),
+                 static_cast<std::uint32_t>(i)};
   }
 }
 
-LinearProgramResult solve_prepared(std::span<const FramePlane> planes, const DVec3& cost,
+void shuffle(Random& random, std::span<FramePlane> planes) {
+  for (std::size_t i = 1; i < planes.size(); ++i)
+    std::swap(planes[i], planes[random.below(i + 1)]);
+}
+
+LinearProgramResult solve_in_frame(std::span<FramePlane> planes, const DVec3& cost,
                                    const LinearProgramOptions& options) {
   const double length = glm::length(cost);
   const DVec3 unit_cost = length > 0.0 ? cost / length : DVec3(0.0);
+  Random random(options.seed);
   Optimum optimum;
-  if (!Solver(planes, unit_cost).solve(optimum)) return {};
+  // Infeasible must be so in two orders: nearly parallel planes can mislead one.
+  bool feasible = false;
+  for (int attempt = 0; attempt < 2 && !feasible; ++attempt) {
+    shuffle(random, planes);
+    feasible = Solver(planes, unit_cost).solve(optimum);
+  }
+  if (!feasible) return {};
   const bool bounded = optimum.escape == DVec3(0.0);
   const auto begin = optimum.support.index.begin();
   std::sort(begin, begin + optimum.support.count);
@@ -191,14 +199,14 @@ LinearProgramResult solve_linear_program(std::span<const HalfSpace> half_spaces,
                                          const LinearProgramOptions& options) {
   assert(options.scale > 0.0);
   if (half_spaces.size() <= kSmall) {
-    std::array<FramePlane, kSmall> planes;
-    const std::span<FramePlane> used(planes.data(), half_spaces.size());
-    prepare(half_spaces, options, used);
-    return solve_prepared(used, cost, options);
+    std::array<FramePlane, kSmall> small;
+    const std::span<FramePlane> planes = std::span(small).first(half_spaces.size());
+    to_frame(half_spaces, options, planes);
+    return solve_in_frame(planes, cost, options);
   }
   std::vector<FramePlane> planes(half_spaces.size());
-  prepare(half_spaces, options, planes);
-  return solve_prepared(planes, cost, options);
+  to_frame(half_spaces, options, planes);
+  return solve_in_frame(planes, cost, options);
 }
 
 }  // namespace limn

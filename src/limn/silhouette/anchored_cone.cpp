@@ -79,8 +79,7 @@ Anchor lowest_anchor(const FaceCluster& cluster, const AnchoredCone& cone, doubl
     if (distance > kFarthestAnchor) return anchor_on_axis(cluster, cone, sign);
     const Lowest lowest = lowest_side(cluster, result.point, sign);
     const std::size_t before = rows.count;
-    if (lowest.side < -kTolerance * std::max(1.0, distance) && before < kMostRows)
-      rows.add(cluster, lowest.face, sign);
+    if (lowest.side < -kTolerance * std::max(1.0, distance) && before < kMostRows) rows.add(cluster, lowest.face, sign);
     if (rows.count > before) continue;
     Anchor anchor{result.point, {}};
     for (int i = 0; i < result.support.count; ++i) {

@@ -13,7 +13,7 @@ namespace limn {
 struct FaceCluster {
   std::span<const DVec3> normals;   ///< of unit length
   std::span<const double> offsets;  ///< beside the normals: n·x + offset > 0 is the front
-  DVec3 near{0.0};                  ///< a point amid the faces; of anchors that serve equally the nearest to it is taken
+  DVec3 near{0.0};  ///< a point amid the faces; of anchors that serve equally the nearest to it is taken
 
   /// The first axis_end faces are where the axis is looked for first, those up to front_end and back_end where the
   /// anchors are. Any faces will do, repeated or not: they save passes and change the result by rounding alone.
@@ -57,19 +57,19 @@ struct StoredCone {
 StoredCone stored_cone(const AnchoredCone& cone, const FaceCluster& cluster, const CullingFrame& frame);
 
 /// Whether all faces of the cluster are certainly seen from one side: two dot products, no square root.
-/// A point lies in a cone when t = (p − anchor)·scaled_normal > 0 and t² >= |p − anchor|². Directions lie in cones whose
-/// anchors are 0. \pre eye.cullable
+/// A point lies in a cone when t = (p − anchor)·scaled_normal > 0 and t² >= |p − anchor|². Directions lie in cones
+/// whose anchors are 0. \pre eye.cullable
 inline bool culls(const StoredCone& cone, const FramedEye& eye) {
   const DVec3 normal(cone.scaled_normal);
   const DVec3 from_front = eye.at - eye.is_point * DVec3(cone.front_anchor);
   const double t = from_front.x * normal.x + from_front.y * normal.y + from_front.z * normal.z;
-  if (t > 0.0) {
-    return t * t >= from_front.x * from_front.x + from_front.y * from_front.y + from_front.z * from_front.z;
-  }
-  const double u = t + eye.is_point * double{cone.separation};
-  if (!(u < 0.0)) return false;
-  const DVec3 from_back = eye.at - eye.is_point * DVec3(cone.back_anchor);
-  return u * u >= from_back.x * from_back.x + from_back.y * from_back.y + from_back.z * from_back.z;
+  // Chosen rather than branched upon: which side the eye is on is as good as random.
+  const bool in_front = t > 0.0;
+  const Vec3& anchor = in_front ? cone.front_anchor : cone.back_anchor;
+  const double height = in_front ? t : -(t + eye.is_point * double{cone.separation});
+  const DVec3 from = eye.at - eye.is_point * DVec3(anchor);
+  const bool wide = height * height >= from.x * from.x + from.y * from.y + from.z * from.z;
+  return wide & (height > 0.0);
 }
 
 }  // namespace limn

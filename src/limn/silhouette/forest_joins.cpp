@@ -236,8 +236,7 @@ class Joiner {
     const AnchoredCone cone = union_cone(a, b, scratch_);
     if (cone.exists) {
       joined.faces.reserve(a.faces.size() + b.faces.size());
-      std::set_union(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(),
-                     std::back_inserter(joined.faces));
+      std::set_union(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), std::back_inserter(joined.faces));
     }
     settle(joined, cone, scratch_);
     return joined;

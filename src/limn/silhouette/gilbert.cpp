@@ -48,8 +48,7 @@ Candidate closest_of_triangle(std::span<const DVec3> points, std::uint32_t a, st
     const double wa = glm::dot(normal, glm::cross(points[b], points[c]));
     const double wb = glm::dot(normal, glm::cross(points[c], points[a]));
     const double wc = glm::dot(normal, glm::cross(points[a], points[b]));
-    if (wa > 0.0 && wb > 0.0 && wc > 0.0)
-      return {(glm::dot(points[a], normal) / area2) * normal, {{a, b, c}, 3}};
+    if (wa > 0.0 && wb > 0.0 && wc > 0.0) return {(glm::dot(points[a], normal) / area2) * normal, {{a, b, c}, 3}};
   }
   const Candidate first = nearer(closest_of_segment(points, a, b), closest_of_segment(points, b, c));
   return nearer(first, closest_of_segment(points, c, a));
@@ -74,10 +73,14 @@ Candidate closest_of_tetrahedron(std::span<const DVec3> points, const Simplex& s
 
 Candidate closest_of(std::span<const DVec3> points, const Simplex& s) {
   switch (s.count) {
-    case 1: return closest_of_vertex(points, s.index[0]);
-    case 2: return closest_of_segment(points, s.index[0], s.index[1]);
-    case 3: return closest_of_triangle(points, s.index[0], s.index[1], s.index[2]);
-    default: return closest_of_tetrahedron(points, s);
+    case 1:
+      return closest_of_vertex(points, s.index[0]);
+    case 2:
+      return closest_of_segment(points, s.index[0], s.index[1]);
+    case 3:
+      return closest_of_triangle(points, s.index[0], s.index[1], s.index[2]);
+    default:
+      return closest_of_tetrahedron(points, s);
   }
 }
 

@@ -12,9 +12,9 @@ namespace limn {
 /// eight half-spaces that the corners of the box and the greater value make is behind every face; in front likewise. A
 /// test costs what one face's costs: each coordinate picks one bound of the box by its sign.
 struct JohannsenCarterBound {
-  Vec3 origin{0.0f};         ///< in the culling frame
-  Vec3 low{-1.0f};           ///< of the normals
-  Vec3 high{1.0f};           ///< of the normals
+  Vec3 origin{0.0f};          ///< in the culling frame
+  Vec3 low{-1.0f};            ///< of the normals
+  Vec3 high{1.0f};            ///< of the normals
   float front_offset = 0.0f;  ///< the least of n·x + offset at `origin`
   float back_offset = 0.0f;   ///< the greatest
 };

@@ -41,7 +41,7 @@ struct PaperForest {
 struct PaperForestOptions {
   double cone_cost = 4.0 / 3.0;    ///< ka/ke: what testing a node costs when testing an edge costs 1. > 0
   double viewpoint_radius = 10.0;  ///< of the sphere U of viewpoints, in radii of the mesh. >= 1; may be infinite
-  /// Also joins clusters apart whose normals differ by less than this (the paper's footnote 3: hardly worth its time).
+  /// Also links edges apart whose normals differ by less than this (the paper's footnote 3): seldom worth its time.
   /// 0 to 1; 0: off. Each edge is linked with eight such edges at most, not with all.
   double similar_normals_rad = 0.0;
 };
@@ -51,7 +51,8 @@ struct PaperForestOptions {
 ///
 /// Edges with two faces take part (manifold and inconsistent). Clusters with a face without area are never culled.
 /// \pre planes is face_planes(mesh), topology is build_topology(mesh)
-/// Cost: about half a minute and 1.5 kB an edge for 100,000 edges; see docs/paper-forest.md. Same bits for any number of threads.
+/// Cost: about ten seconds and 1 kB an edge for 100,000 edges; more than linear (docs/paper-forest.md). Same bits for
+/// any number of threads.
 /// Errors: kInvalidArgument for options out of range; kCancelled.
 Result<PaperForest> build_paper_forest(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes,
                                        const PaperForestOptions& options = {}, const Progress& progress = {});
