@@ -16,6 +16,8 @@ constexpr std::size_t kRun = 16384;
 /// A cluster whose surroundings are used up goes on at one of the next faces of the run, if it faces nearly its way.
 constexpr std::size_t kLookAhead = 64;
 constexpr float kJumpDistance = 0.3f;
+/// More than the unit cube's diagonal: a block takes what comes next.
+constexpr float kAnywhere = 2.0f;
 
 bool has_two_faces(EdgeClass edge_class) {
   return edge_class == EdgeClass::kManifold || edge_class == EdgeClass::kInconsistent;
@@ -352,6 +354,39 @@ ClusterPlace place_of(const LeafCluster& cluster, const Mesh& mesh, std::span<co
   return place;
 }
 
+bool fits(const BlockCluster& a, const BlockCluster& b) {
+  return a.face_count + b.face_count <= int{BlockCluster::kFaces} &&
+         a.edge_count + b.edge_count <= int{BlockCluster::kEdges};
+}
+
+void append(BlockCluster& cluster, const BlockCluster& more) {
+  for (std::size_t e = 0; e < more.edge_count; ++e) {
+    const std::size_t at = cluster.edge_count + e;
+    cluster.edges[at] = more.edges[e];
+    cluster.first[at] = static_cast<std::uint8_t>(cluster.face_count + more.first[e]);
+    cluster.second[at] = static_cast<std::uint8_t>(cluster.face_count + more.second[e]);
+  }
+  std::copy_n(more.faces.begin(), more.face_count, cluster.faces.begin() + cluster.face_count);
+  cluster.face_count = static_cast<std::uint8_t>(cluster.face_count + more.face_count);
+  cluster.edge_count = static_cast<std::uint8_t>(cluster.edge_count + more.edge_count);
+}
+
+/// What growing leaves between large clusters is small. Small ones are joined one after the other; large ones stay.
+std::vector<BlockCluster> join_small(std::span<const BlockCluster> grown) {
+  constexpr std::size_t kSmall = BlockCluster::kEdges * 3 / 4;
+  std::vector<BlockCluster> clusters, joined;
+  for (const BlockCluster& cluster : grown) {
+    if (cluster.edge_count > kSmall)
+      clusters.push_back(cluster);
+    else if (!joined.empty() && fits(joined.back(), cluster))
+      append(joined.back(), cluster);
+    else
+      joined.push_back(cluster);
+  }
+  clusters.insert(clusters.end(), joined.begin(), joined.end());
+  return clusters;
+}
+
 }  // namespace
 
 std::vector<LeafCluster> leaf_clusters(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes) {
@@ -385,7 +420,7 @@ std::vector<BlockCluster> block_clusters(const Mesh& mesh, const Topology& topol
     for (std::size_t f = begin; f < end; ++f)
       centroids[f] = Vec3(cube.centroid(mesh, mesh.faces[f]));
   });
-  return grow_clusters<BlockCluster>(mesh, topology, centroids, 2.0f);
+  return join_small(grow_clusters<BlockCluster>(mesh, topology, centroids, kAnywhere));
 }
 
 }  // namespace limn

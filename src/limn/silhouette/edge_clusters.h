@@ -37,7 +37,8 @@ using BlockCluster = EdgeCluster<128, 128>;
 /// of about 14 edges.
 std::vector<LeafCluster> leaf_clusters(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes);
 
-/// The same edges in larger clusters, the nearest in place first; in the order of the curve.
+/// The same edges in larger clusters, the nearest in place first; small ones joined. Same result for any number of
+/// threads.
 std::vector<BlockCluster> block_clusters(const Mesh& mesh, const Topology& topology);
 
 }  // namespace limn

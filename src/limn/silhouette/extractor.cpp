@@ -6,8 +6,10 @@ namespace limn {
 namespace {
 
 /// Above this share of leaves entered brute force is faster: it reads each edge in a third of the bytes that a leaf
-/// takes. By then the nodes have cost a twentieth of brute force (docs/extraction.md).
+/// takes. By then the nodes have cost a twentieth of brute force (docs/search-tree.md).
 constexpr double kSparse = 0.6;
+/// Below this many leaves (about 1,500 faces) all is done before the nodes have paid.
+constexpr std::size_t kFewLeaves = 150;
 
 }  // namespace
 
@@ -27,6 +29,7 @@ std::span<const EdgeId> SilhouetteExtractor::find(const Eye& eye, SearchScratch&
     case SearchMethod::kFlat:
       return tree_.find_flat(eye, scratch, nullptr, level);
     case SearchMethod::kAuto: {
+      if (tree_.leaf_count() < kFewLeaves) break;
       const auto most = static_cast<std::size_t>(kSparse * static_cast<double>(tree_.leaf_count()));
       if (const auto found = tree_.find_if_sparse(eye, most, scratch, level)) return *found;
       break;
