@@ -139,7 +139,8 @@ TEST(Contours, OfAConvexSphereAreOneLoop) {
 TEST(Contours, ThatMeetAtAVertexStayWithTheFacesOnTheirLeft) {
   // Two pyramids, base down, that share their apex only: from above the apex both contours may pass through it.
   Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, -1, 0.2f}, {1, 1, 0.2f}, {2, 0, -0.5f}, {-1, -1, 0.2f}, {-1, 1, 0.2f}, {-2, 0, -0.5f}};
+  mesh.positions = {{0, 0, 0},      {1, -1, 0.2f}, {1, 1, 0.2f},  {2, 0, -0.5f},
+                    {-1, -1, 0.2f}, {-1, 1, 0.2f}, {-2, 0, -0.5f}};
   mesh.faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}, {0, 5, 4}, {0, 4, 6}, {0, 6, 5}, {4, 5, 6}};
   const Seen seen(std::move(mesh));
   const Chains chains = seen.contours({Vec3(0, 0, 1), true});

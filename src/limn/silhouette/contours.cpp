@@ -297,9 +297,8 @@ std::vector<EdgeId> without_edges(std::span<const EdgeId> edges, std::span<const
 
 void append_chains(const Mesh& mesh, const Chains& chains, LineClass line_class, Polylines& polylines) {
   for (const Chain& chain : chains.chains) {
-    Polyline line{.begin = static_cast<std::uint32_t>(polylines.points.size()),
-                  .line_class = line_class,
-                  .closed = chain.closed};
+    Polyline line{
+        .begin = static_cast<std::uint32_t>(polylines.points.size()), .line_class = line_class, .closed = chain.closed};
     for (std::uint32_t i = chain.begin; i < chain.end; ++i) {
       polylines.points.push_back(mesh.positions[chains.steps[i].from]);
       polylines.edges.push_back(chains.steps[i].edge);

@@ -33,9 +33,9 @@ struct Chains {
 
 /// Strings silhouette edges into contours that keep the surface seen from the front on their left.
 ///
-/// An edge runs as in its face that is seen from the front; an inconsistent edge too (its other face runs the same way).
-/// On a closed mesh whose faces agree on the front every chain is closed: as many contours leave a vertex as reach it.
-/// Elsewhere a chain is open where no edge that runs on is left: at boundary, non-manifold and flipped faces.
+/// An edge runs as in its face that is seen from the front; an inconsistent edge too (its other face runs the same
+/// way). On a closed mesh whose faces agree on the front every chain is closed: as many contours leave a vertex as
+/// reach it. Elsewhere a chain is open where no edge that runs on is left: at boundary, non-manifold and flipped faces.
 /// Where several contours meet, each goes on along the faces that it keeps on its left, so that contours of one fan
 /// touch but do not cross; what is left over is paired in the order of the edges.
 ///

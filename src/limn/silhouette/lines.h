@@ -29,7 +29,8 @@ struct Polyline {
 /// Polylines in the mesh's space, in one block of memory. Silhouettes run with the front face on their left.
 struct Polylines {
   std::vector<Vec3> points;
-  /// Beside each point the edge on which the segment that starts there lies; kInvalidId at the end of an open polyline.
+  /// Beside each point the edge on which the segment that starts there lies; kInvalidId at the end of an open polyline,
+  /// and for a segment along a line of sight, which is a point in the picture (outer_outline.h).
   std::vector<EdgeId> edges;
   std::vector<Polyline> lines;
 };
