@@ -1,7 +1,7 @@
 // How long do visible polylines take, stage by stage, and how often is a line taken for hidden that is not, or the
 // other way round?
 //
-//   visible_lines [MODEL…] [--no-large] [--views N] [--points N] [--json]
+//   visible_lines [MODEL…] [--no-large] [--one-view] [--views N] [--points N] [--json]
 //
 // Asteroid and knot of 100k and 1M triangles and the given models, from random points at 1.2 diagonals; medians over
 // the views. The oracle counts the faces in front of random points on lines, all of them in double, without tree or
@@ -33,6 +33,7 @@ namespace {
 struct Arguments {
   std::vector<std::string> models;
   bool no_large = false;
+  bool one_view = false;
   int views = 9;
   int points = 4000;
   bool json = false;
@@ -93,7 +94,7 @@ Result<Row> measure(const std::string& name, const Mesh& mesh, const Arguments& 
   const Topology topology = build_topology(mesh);
   const std::vector<Plane> planes = face_planes(mesh);
   std::optional<Result<VisibilityScene>> scene;
-  row.build_ms = time_ms([&] { scene = VisibilityScene::build(mesh, topology); });
+  row.build_ms = time_ms([&] { scene = VisibilityScene::build(mesh, topology, !arguments.one_view); });
   if (!*scene) return tl::unexpected(scene->error());
   const Bounds bounds = face_bounds(mesh);
   Random random(7);
@@ -210,6 +211,7 @@ int run(int argc, char** argv) {
   CLI::App app{"times of visible polylines, and how often they are wrong"};
   app.add_option("model", arguments.models);
   app.add_flag("--no-large", arguments.no_large);
+  app.add_flag("--one-view", arguments.one_view, "build scenes for one view: piercings are found in each view");
   app.add_option("--views", arguments.views)->check(CLI::Range(1, 10000));
   app.add_option("--points", arguments.points, "for the oracle, a view")->check(CLI::Range(0, 10000000));
   app.add_flag("--json", arguments.json);

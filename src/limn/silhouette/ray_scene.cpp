@@ -50,14 +50,13 @@ struct Frame {
   }
 };
 
-/// A ray from a point on an edge. The context comes first: Embree hands its filter a pointer to it.
+/// A ray from a point on an edge.
 struct Query {
-  RTCIntersectContext context;
   const Frame* frame;
   EdgeId edge;
   DVec3 origin;
   DVec3 direction;
-  std::vector<double>* piercings;
+  std::vector<EdgePoint>* piercings;
 };
 
 /// Where along the ray it meets the face's plane; NaN when it runs within the plane or the face has no area.
@@ -90,21 +89,31 @@ bool counts(const Query& query, FaceId face) {
   const DVec3 corners[3] = {query.frame->vertex(t[0]), query.frame->vertex(t[1]), query.frame->vertex(t[2])};
   const double along = distance_along(query, corners);
   if (query.piercings != nullptr) {
-    if (along > 0.0 && along < 1.0) query.piercings->push_back(along);
+    if (along > 0.0 && along < 1.0) query.piercings->push_back({query.edge, along});
     return false;
   }
   if (star) return along > 0.0 && runs_through(query, corners);
   return along * glm::length(query.direction) > kTouching;
 }
 
+/// Rays cast together. The context comes first: Embree hands its filter a pointer to it. A ray's id is its query's place.
+struct Batch {
+  RTCIntersectContext context;
+  const Query* queries;
+};
+
 void filter(const RTCFilterFunctionNArguments* arguments) {
-  const Query& query = *reinterpret_cast<const Query*>(arguments->context);
-  if (!counts(query, RTCHitN_primID(arguments->hit, arguments->N, 0))) arguments->valid[0] = 0;
+  const Batch& batch = *reinterpret_cast<const Batch*>(arguments->context);
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] == 0) continue;
+    const Query& query = batch.queries[RTCRayN_id(arguments->ray, arguments->N, i)];
+    if (!counts(query, RTCHitN_primID(arguments->hit, arguments->N, i))) arguments->valid[i] = 0;
+  }
 }
 
-bool meets(RTCScene scene, Query& query, float far) {
-  rtcInitIntersectContext(&query.context);
-  query.context.filter = filter;
+constexpr std::size_t kBatch = 64;
+
+RTCRay ray_of(const Query& query, std::size_t id, float far) {
   RTCRay ray{};
   ray.org_x = static_cast<float>(query.origin.x);
   ray.org_y = static_cast<float>(query.origin.y);
@@ -115,8 +124,29 @@ bool meets(RTCScene scene, Query& query, float far) {
   ray.tnear = 0.0f;
   ray.tfar = far;
   ray.mask = 0xffffffffu;
-  rtcOccluded1(scene, &query.context, &ray);
-  return ray.tfar < 0.0f;
+  ray.id = static_cast<unsigned>(id);
+  return ray;
+}
+
+/// Calls met(i, whether ray i meets a face that counts) for queries 0 … count-1, kBatch at a time.
+template <class MakeQuery, class Met>
+void cast_rays(RTCScene scene, std::size_t count, float far, const MakeQuery& make_query, const Met& met) {
+  std::vector<Query> queries(std::min(count, kBatch));
+  std::vector<RTCRay> rays(queries.size());
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    const std::size_t size = std::min(kBatch, count - begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      queries[i] = make_query(begin + i);
+      rays[i] = ray_of(queries[i], i, far);
+    }
+    Batch batch{{}, queries.data()};
+    rtcInitIntersectContext(&batch.context);
+    batch.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    batch.context.filter = filter;
+    rtcOccluded1M(scene, &batch.context, rays.data(), static_cast<unsigned>(size), sizeof(RTCRay));
+    for (std::size_t i = 0; i < size; ++i)
+      met(begin + i, rays[i].tfar < 0.0f);
+  }
 }
 
 Frame frame_of(const Mesh& mesh, const Topology& topology) {
@@ -186,22 +216,41 @@ Result<RayScene> RayScene::build(const Mesh& mesh, const Topology& topology) {
   return RayScene(std::move(impl));
 }
 
-bool RayScene::hides(const Eye& eye, EdgeId edge, double t) const {
-  const DVec3 origin = impl_->frame.point(edge, t);
-  Query query{{}, &impl_->frame, edge, origin, impl_->frame.towards(eye, origin), nullptr};
-  return meets(impl_->scene.get(), query, eye.orthographic ? std::numeric_limits<float>::infinity() : 1.0f);
+void RayScene::hides(const Eye& eye, std::span<const EdgePoint> points, std::span<std::uint8_t> hidden) const {
+  const Frame& frame = impl_->frame;
+  cast_rays(
+      impl_->scene.get(), points.size(), eye.orthographic ? std::numeric_limits<float>::infinity() : 1.0f,
+      [&](std::size_t i) {
+        const DVec3 origin = frame.point(points[i].edge, points[i].t);
+        return Query{&frame, points[i].edge, origin, frame.towards(eye, origin), nullptr};
+      },
+      [&](std::size_t i, bool met) { hidden[i] = met; });
 }
 
-bool RayScene::background_behind(const Eye& eye, EdgeId edge, double t) const {
-  const DVec3 origin = impl_->frame.point(edge, t);
-  Query query{{}, &impl_->frame, edge, origin, -impl_->frame.towards(eye, origin), nullptr};
-  return !meets(impl_->scene.get(), query, std::numeric_limits<float>::infinity());
+void RayScene::background_behind(const Eye& eye, std::span<const EdgePoint> points,
+                                 std::span<std::uint8_t> background) const {
+  const Frame& frame = impl_->frame;
+  cast_rays(
+      impl_->scene.get(), points.size(), std::numeric_limits<float>::infinity(),
+      [&](std::size_t i) {
+        const DVec3 origin = frame.point(points[i].edge, points[i].t);
+        return Query{&frame, points[i].edge, origin, -frame.towards(eye, origin), nullptr};
+      },
+      [&](std::size_t i, bool met) { background[i] = !met; });
 }
 
-void RayScene::piercings(EdgeId edge, std::vector<double>& shares) const {
-  const DVec3 origin = impl_->frame.point(edge, 0.0);
-  Query query{{}, &impl_->frame, edge, origin, impl_->frame.point(edge, 1.0) - origin, &shares};
-  meets(impl_->scene.get(), query, 1.0f);
+void RayScene::piercings(std::span<const EdgeId> edges, std::vector<EdgePoint>& points) const {
+  const Frame& frame = impl_->frame;
+  const std::size_t first = points.size();
+  cast_rays(
+      impl_->scene.get(), edges.size(), 1.0f,
+      [&](std::size_t i) {
+        const DVec3 origin = frame.point(edges[i], 0.0);
+        return Query{&frame, edges[i], origin, frame.point(edges[i], 1.0) - origin, &points};
+      },
+      [](std::size_t, bool) {});
+  std::sort(points.begin() + static_cast<std::ptrdiff_t>(first), points.end(),
+            [](const EdgePoint& a, const EdgePoint& b) { return a.edge != b.edge ? a.edge < b.edge : a.t < b.t; });
 }
 
 #else
@@ -213,15 +262,9 @@ Result<RayScene> RayScene::build(const Mesh&, const Topology&) {
               "install Embree 3 and build with LIMN_EMBREE=ON, or draw all lines");
 }
 
-bool RayScene::hides(const Eye&, EdgeId, double) const {
-  return false;
-}
-
-bool RayScene::background_behind(const Eye&, EdgeId, double) const {
-  return false;
-}
-
-void RayScene::piercings(EdgeId, std::vector<double>&) const {}
+void RayScene::hides(const Eye&, std::span<const EdgePoint>, std::span<std::uint8_t>) const {}
+void RayScene::background_behind(const Eye&, std::span<const EdgePoint>, std::span<std::uint8_t>) const {}
+void RayScene::piercings(std::span<const EdgeId>, std::vector<EdgePoint>&) const {}
 
 #endif
 

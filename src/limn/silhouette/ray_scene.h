@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "limn/base/result.h"
@@ -9,6 +11,12 @@
 #include "limn/silhouette/eye.h"
 
 namespace limn {
+
+/// A point on an edge.
+struct EdgePoint {
+  EdgeId edge = kInvalidId;
+  double t = 0;  ///< share of the edge, from v[0] (0) to v[1] (1)
+};
 
 /// A mesh made ready for lines of sight to points on its edges. Built once a mesh, asked from any number of threads.
 ///
@@ -29,16 +37,18 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
   ~RayScene();
 
-  /// Whether a face lies between the eye and the point at share t of the edge, from v[0] (0) to v[1] (1).
-  /// Cost: one ray, about a microsecond. Same answer every time.
-  bool hides(const Eye& eye, EdgeId edge, double t) const;
+  /// For each point, whether a face lies between it and the eye: 1 or 0.
+  /// Cost: a ray a point, half a microsecond; quickest when neighbours in `points` are neighbours in space. One thread.
+  /// A point's answer may depend on the points asked with it only where a ray grazes an edge within float rounding; the
+  /// same points in the same order give the same answers. \pre hidden.size() == points.size()
+  void hides(const Eye& eye, std::span<const EdgePoint> points, std::span<std::uint8_t> hidden) const;
 
-  /// Whether nothing lies behind the point either, along the line of sight and to infinity.
-  bool background_behind(const Eye& eye, EdgeId edge, double t) const;
+  /// For each point, whether nothing lies behind it, along the line of sight and to infinity. Otherwise as hides.
+  void background_behind(const Eye& eye, std::span<const EdgePoint> points, std::span<std::uint8_t> background) const;
 
-  /// Appends the shares of the edge, in (0, 1), at which it runs through faces that share none of its vertices: only on
-  /// self-intersecting meshes. In no order; one may appear twice.
-  void piercings(EdgeId edge, std::vector<double>& shares) const;
+  /// Appends the points within these edges at which they run through faces that share none of their vertices: there are
+  /// some only on self-intersecting meshes. Ascending by (edge, t); one may appear twice. Otherwise as hides.
+  void piercings(std::span<const EdgeId> edges, std::vector<EdgePoint>& points) const;
 
  private:
   struct Impl;

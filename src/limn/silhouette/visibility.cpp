@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 #include "limn/base/parallel.h"
 #include "limn/silhouette/classes.h"
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double kSame = 1e-7;  // shares of an edge: cuts this near to each other or to an end are one
 constexpr double kTie = 1e-9;   // sine: directions this near in the picture may cover each other
-constexpr std::size_t kRayGrain = 64;
+constexpr std::size_t kRayBlock = 256;  // rays cast together: the same ones for any number of threads
 constexpr std::size_t kStepGrain = 512;
 
 /// Where a step is cut, and what may change there.
@@ -119,28 +120,43 @@ class VisibilityFinder {
   }
 
   std::vector<Cut> cuts_at_piercings() const {
-    constexpr std::size_t kBlock = 256;
-    std::vector<std::vector<Cut>> blocks((steps_.size() + kBlock - 1) / kBlock);
-    parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
-      std::vector<double> shares;
-      for (std::size_t block = begin; block < end; ++block) {
-        for (std::size_t i = block * kBlock; i < std::min(steps_.size(), (block + 1) * kBlock); ++i) {
-          shares.clear();
-          scene_.rays().piercings(steps_[i].edge, shares);
-          for (const double share : shares)
-            blocks[block].push_back({static_cast<std::uint32_t>(i), along_step(i, share), true});
+    std::vector<std::vector<Cut>> blocks((steps_.size() + kRayBlock - 1) / kRayBlock);
+    if (scene_.piercings()) {
+      for (std::uint32_t i = 0; i < steps_.size(); ++i)
+        add_cuts(i, *scene_.piercings(), blocks[i / kRayBlock]);
+    } else {
+      parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
+        std::vector<EdgeId> edges;
+        std::vector<EdgePoint> points;
+        for (std::size_t block = begin; block < end; ++block) {
+          const std::size_t first = block * kRayBlock, last = std::min(steps_.size(), first + kRayBlock);
+          edges.clear();
+          points.clear();
+          for (std::size_t i = first; i < last; ++i)
+            edges.push_back(steps_[i].edge);
+          scene_.rays().piercings(edges, points);
+          for (std::size_t i = first; i < last && !points.empty(); ++i)
+            add_cuts(static_cast<std::uint32_t>(i), points, blocks[block]);
         }
-      }
-    });
+      });
+    }
     std::vector<Cut> cuts;
     for (const std::vector<Cut>& block : blocks)
       cuts.insert(cuts.end(), block.begin(), block.end());
     return cuts;
   }
 
+  /// \pre points ascend by edge
+  void add_cuts(std::uint32_t step, std::span<const EdgePoint> points, std::vector<Cut>& cuts) const {
+    const EdgeId edge = steps_[step].edge;
+    auto point = std::lower_bound(points.begin(), points.end(), edge,
+                                  [](const EdgePoint& p, EdgeId e) { return p.edge < e; });
+    for (; point != points.end() && point->edge == edge; ++point)
+      cuts.push_back({step, along_step(step, point->t), true});
+  }
+
   bool runs_backward(std::size_t step) const { return steps_[step].from != topology_.edges[steps_[step].edge].v[0]; }
   double along_step(std::size_t step, double share) const { return runs_backward(step) ? 1.0 - share : share; }
-  double along_edge(std::size_t step, double t) const { return along_step(step, t); }
 
   std::uint32_t step_before(const Chain& chain, std::uint32_t step) const {
     if (step > chain.begin) return step - 1;
@@ -271,16 +287,26 @@ class VisibilityFinder {
     }
   }
 
-  double middle(const Part& part) const { return along_edge(part.step, 0.5 * (part.begin + part.end)); }
+  EdgePoint middle(const Part& part) const {
+    return {steps_[part.step].edge, along_step(part.step, 0.5 * (part.begin + part.end))};
+  }
+
+  template <class Body>
+  static void in_blocks(std::size_t count, const Body& body) {
+    parallel_for((count + kRayBlock - 1) / kRayBlock, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t block = begin; block < end; ++block)
+        body(block * kRayBlock, std::min(kRayBlock, count - block * kRayBlock));
+    });
+  }
 
   void decide_hidden(VisibilityReport& report) {
     group_parts([&](std::uint32_t part, std::uint32_t) { return parts_[part].new_layers; });
     std::vector<std::uint8_t> hidden(deciding_.size());
-    parallel_for(hidden.size(), kRayGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t g = begin; g < end; ++g) {
-        const Part& part = parts_[deciding_[g]];
-        hidden[g] = scene_.rays().hides(eye_, steps_[part.step].edge, middle(part));
-      }
+    std::vector<EdgePoint> points(deciding_.size());
+    for (std::size_t g = 0; g < points.size(); ++g)
+      points[g] = middle(parts_[deciding_[g]]);
+    in_blocks(points.size(), [&](std::size_t begin, std::size_t size) {
+      scene_.rays().hides(eye_, std::span(points).subspan(begin, size), std::span(hidden).subspan(begin, size));
     });
     visible_.resize(parts_.size());
     for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -335,18 +361,24 @@ class VisibilityFinder {
     group_parts([&](std::uint32_t part, std::uint32_t previous) {
       return separate[part] != 0 || visible_[part] != visible_[previous];
     });
-    std::vector<std::uint8_t> outer(deciding_.size(), 0), asked(deciding_.size(), 0);
-    parallel_for(outer.size(), kRayGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t g = begin; g < end; ++g) {
-        const Part& part = parts_[deciding_[g]];
-        if (visible_[deciding_[g]] == 0 || !one_sided(part.step)) continue;
-        asked[g] = 1;
-        outer[g] = scene_.rays().background_behind(eye_, steps_[part.step].edge, middle(part));
-      }
+    std::vector<std::uint32_t> asked;
+    std::vector<EdgePoint> points;
+    for (std::uint32_t g = 0; g < deciding_.size(); ++g) {
+      const Part& part = parts_[deciding_[g]];
+      if (visible_[deciding_[g]] == 0 || !one_sided(part.step)) continue;
+      asked.push_back(g);
+      points.push_back(middle(part));
+    }
+    std::vector<std::uint8_t> background(points.size()), outer(deciding_.size(), 0);
+    in_blocks(points.size(), [&](std::size_t begin, std::size_t size) {
+      scene_.rays().background_behind(eye_, std::span(points).subspan(begin, size),
+                                      std::span(background).subspan(begin, size));
     });
+    for (std::size_t i = 0; i < asked.size(); ++i)
+      outer[asked[i]] = background[i];
     for (std::size_t p = 0; p < parts_.size(); ++p)
       outer_of_[p] = outer[group_of_[p]];
-    report.rays += static_cast<std::size_t>(std::count(asked.begin(), asked.end(), 1));
+    report.rays += points.size();
   }
 
   std::vector<LinePiece> pieces() const {
@@ -384,8 +416,9 @@ class VisibilityFinder {
 
 }  // namespace
 
-VisibilityScene::VisibilityScene(const Mesh& mesh, const Topology& topology, RayScene rays)
+VisibilityScene::VisibilityScene(const Mesh& mesh, const Topology& topology, RayScene rays, bool many_views)
     : mesh_(&mesh), topology_(&topology), rays_(std::move(rays)) {
+  if (many_views) find_piercings();
   star_offsets_.assign(mesh.positions.size() + 1, 0);
   const auto is_degenerate = [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
   for (const Triangle& face : topology.faces) {
@@ -407,10 +440,27 @@ VisibilityScene::VisibilityScene(const Mesh& mesh, const Topology& topology, Ray
              std::back_inserter(open_edges_));
 }
 
-Result<VisibilityScene> VisibilityScene::build(const Mesh& mesh, const Topology& topology) {
+void VisibilityScene::find_piercings() {
+  constexpr std::size_t kBlock = 4096;
+  const std::size_t count = topology_->edge_count();
+  std::vector<std::vector<EdgePoint>> blocks((count + kBlock - 1) / kBlock);
+  parallel_for(blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
+    std::vector<EdgeId> edges;
+    for (std::size_t block = begin; block < end; ++block) {
+      edges.resize(std::min(kBlock, count - block * kBlock));
+      std::iota(edges.begin(), edges.end(), static_cast<EdgeId>(block * kBlock));
+      rays_.piercings(edges, blocks[block]);
+    }
+  });
+  piercings_.emplace();
+  for (const std::vector<EdgePoint>& block : blocks)
+    piercings_->insert(piercings_->end(), block.begin(), block.end());
+}
+
+Result<VisibilityScene> VisibilityScene::build(const Mesh& mesh, const Topology& topology, bool many_views) {
   Result<RayScene> rays = RayScene::build(mesh, topology);
   if (!rays) return tl::unexpected(rays.error());
-  return VisibilityScene(mesh, topology, std::move(*rays));
+  return VisibilityScene(mesh, topology, std::move(*rays), many_views);
 }
 
 std::vector<LinePiece> find_visibility(const VisibilityScene& scene, const LineChains& lines,

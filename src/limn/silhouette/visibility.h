@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,9 +20,11 @@ namespace limn {
 /// which the number of layers may change wherever they are seen from. Built once a mesh; safe to use from many threads.
 class VisibilityScene {
  public:
-  /// Keeps references to both, which must outlive it and stay where they are. Cost: RayScene's, and two passes over
-  /// the faces. Errors: RayScene's. \pre as for RayScene
-  static Result<VisibilityScene> build(const Mesh& mesh, const Topology& topology);
+  /// Keeps references to both, which must outlive it and stay where they are.
+  /// \param many_views  look now, at every edge, where the mesh intersects itself, rather than at the lines of each
+  ///                    view: about doubles the time to build, and saves a ray a line's edge in each view
+  /// Cost: RayScene's, and two passes over the faces. Errors: RayScene's. \pre as for RayScene
+  static Result<VisibilityScene> build(const Mesh& mesh, const Topology& topology, bool many_views = false);
 
   const Mesh& mesh() const { return *mesh_; }
   const Topology& topology() const { return *topology_; }
@@ -31,9 +34,12 @@ class VisibilityScene {
   }
   /// Boundary and non-manifold edges, ascending.
   std::span<const EdgeId> open_edges() const { return open_edges_; }
+  /// Where edges run through faces, ascending by (edge, t); none unless built for many views.
+  const std::optional<std::vector<EdgePoint>>& piercings() const { return piercings_; }
 
  private:
-  VisibilityScene(const Mesh& mesh, const Topology& topology, RayScene rays);
+  VisibilityScene(const Mesh& mesh, const Topology& topology, RayScene rays, bool many_views);
+  void find_piercings();
 
   const Mesh* mesh_;
   const Topology* topology_;
@@ -41,6 +47,7 @@ class VisibilityScene {
   std::vector<std::uint32_t> star_offsets_;
   std::vector<FaceId> star_faces_;
   std::vector<EdgeId> open_edges_;
+  std::optional<std::vector<EdgePoint>> piercings_;
 };
 
 /// Chains of several classes together. \see collect_lines (visible_lines.h)
