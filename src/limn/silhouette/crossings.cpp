@@ -13,15 +13,17 @@ namespace {
 
 constexpr double kTie = 1e-9;         // of a segment's length
 constexpr double kFlat = 1e-12;       // sine below which two segments overlap along a line
-constexpr std::size_t kCrowded = 24;  // segments in a cell that are worth cutting it
+constexpr std::size_t kCrowded = 16;  // segments in a cell that are worth cutting it
 constexpr int kDeepest = 12;          // cuts of a cell
-constexpr double kCellsPerSegment = 2;
+constexpr double kCellsPerSegment = 4;
 constexpr double kWidestCone = 2.0;  // tangent of the half angle up to which one picture plane holds everything
 
 /// A segment as seen from the eye. For a parallel projection (x, y, 1) in the picture: then the same determinants
 /// apply.
 struct Seen {
-  DVec3 a, ab;                      ///< direction to a; to b less that to a
+  DVec3 a, ab;   ///< direction to a; to b less that to a
+  DVec3 across;  ///< a × ab: normal to the plane through the eye and the segment
+  double across_length = 0;
   double depth_a = 0, depth_b = 0;  ///< parallel only: larger is nearer
 };
 
@@ -100,14 +102,21 @@ class Finder {
   }
 
   Seen see(const Segment& s, const Eye& eye) const {
-    if (!orthographic_) {
-      const DVec3 at(eye.at);
-      return {(s.a - at) * scale_, (s.b - s.a) * scale_};
+    Seen seen;
+    const DVec3 ab = (s.b - s.a) * scale_;
+    if (orthographic_) {
+      const DVec3 a = (s.a - middle_) * scale_;
+      seen.a = DVec3(glm::dot(a, axes_.x), glm::dot(a, axes_.y), 1.0);
+      seen.ab = DVec3(glm::dot(ab, axes_.x), glm::dot(ab, axes_.y), 0.0);
+      seen.depth_a = glm::dot(a, axes_.z);
+      seen.depth_b = seen.depth_a + glm::dot(ab, axes_.z);
+    } else {
+      seen.a = (s.a - DVec3(eye.at)) * scale_;
+      seen.ab = ab;
     }
-    const DVec3 a = (s.a - middle_) * scale_, ab = (s.b - s.a) * scale_;
-    const double depth = glm::dot(a, axes_.z);
-    return {DVec3(glm::dot(a, axes_.x), glm::dot(a, axes_.y), 1.0),
-            DVec3(glm::dot(ab, axes_.x), glm::dot(ab, axes_.y), 0.0), depth, depth + glm::dot(ab, axes_.z)};
+    seen.across = glm::cross(seen.a, seen.ab);
+    seen.across_length = glm::length(seen.across);
+    return seen;
   }
 
   /// The plane across the line from the eye to the segments' middle, where all of them lie within a cone about it.
@@ -291,13 +300,12 @@ class Finder {
     }
     const Seen &a = seen_[i], &c = seen_[j];
     // Sides of c's ends from the plane through the eye and a, and the other way round.
-    const DVec3 across_a = glm::cross(a.a, a.ab), across_c = glm::cross(c.a, c.ab);
-    const double c0 = glm::dot(across_a, c.a - a.a), c1 = c0 + glm::dot(across_a, c.ab);
-    const double a0 = glm::dot(across_c, a.a - c.a), a1 = a0 + glm::dot(across_c, a.ab);
-    const double turn_c = c0 - c1, turn_a = a0 - a1;
-    const double flat = kFlat * glm::length(across_a) * glm::length(across_c);
-    if (std::abs(turn_c) * glm::length(c.a) <= flat || std::abs(turn_a) * glm::length(a.a) <= flat) {
-      if (std::abs(c0) <= kTie * glm::length(across_a) * glm::length(c.ab)) overlap(i, j, found);
+    const DVec3 between = c.a - a.a;
+    const double c0 = glm::dot(a.across, between), turn_c = -glm::dot(a.across, c.ab);
+    const double a0 = -glm::dot(c.across, between), turn_a = -glm::dot(c.across, a.ab);
+    const double flat = kFlat * a.across_length * c.across_length;
+    if (turn_c * turn_c * glm::dot(c.a, c.a) <= flat * flat || turn_a * turn_a * glm::dot(a.a, a.a) <= flat * flat) {
+      if (std::abs(c0) <= kTie * a.across_length * glm::length(c.ab)) overlap(i, j, found);
       return;
     }
     const double s = a0 / turn_a, t = c0 / turn_c;
@@ -314,7 +322,7 @@ class Finder {
       const double length = glm::dot(a.ab, a.ab);
       for (const DVec3& end : {c.a, c.a + c.ab}) {
         // Where the line of sight to `end` comes nearest to the segment, both within one plane through the eye.
-        const DVec3 normal = orthographic_ ? DVec3(a.ab.x, a.ab.y, 0) : glm::cross(end, glm::cross(a.a, a.ab));
+        const DVec3 normal = orthographic_ ? DVec3(a.ab.x, a.ab.y, 0) : glm::cross(end, a.across);
         const double slope = glm::dot(normal, a.ab);
         if (!(length > 0.0) || slope == 0.0) continue;
         const double t = orthographic_ ? glm::dot(normal, end - a.a) / slope : -glm::dot(normal, a.a) / slope;

@@ -96,7 +96,8 @@ bool counts(const Query& query, FaceId face) {
   return along * glm::length(query.direction) > kTouching;
 }
 
-/// Rays cast together. The context comes first: Embree hands its filter a pointer to it. A ray's id is its query's place.
+/// Rays cast together. The context comes first: Embree hands its filter a pointer to it. A ray's id is its query's
+/// place.
 struct Batch {
   RTCIntersectContext context;
   const Query* queries;

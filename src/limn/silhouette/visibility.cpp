@@ -13,8 +13,8 @@
 namespace limn {
 namespace {
 
-constexpr double kSame = 1e-7;  // shares of an edge: cuts this near to each other or to an end are one
-constexpr double kTie = 1e-9;   // sine: directions this near in the picture may cover each other
+constexpr double kSame = 1e-7;          // shares of an edge: cuts this near to each other or to an end are one
+constexpr double kTie = 1e-9;           // sine: directions this near in the picture may cover each other
 constexpr std::size_t kRayBlock = 256;  // rays cast together: the same ones for any number of threads
 constexpr std::size_t kStepGrain = 512;
 
@@ -149,8 +149,8 @@ class VisibilityFinder {
   /// \pre points ascend by edge
   void add_cuts(std::uint32_t step, std::span<const EdgePoint> points, std::vector<Cut>& cuts) const {
     const EdgeId edge = steps_[step].edge;
-    auto point = std::lower_bound(points.begin(), points.end(), edge,
-                                  [](const EdgePoint& p, EdgeId e) { return p.edge < e; });
+    auto point =
+        std::lower_bound(points.begin(), points.end(), edge, [](const EdgePoint& p, EdgeId e) { return p.edge < e; });
     for (; point != points.end() && point->edge == edge; ++point)
       cuts.push_back({step, along_step(step, point->t), true});
   }
