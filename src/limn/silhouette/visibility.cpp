@@ -291,6 +291,32 @@ class VisibilityFinder {
     return {steps_[part.step].edge, along_step(part.step, 0.5 * (part.begin + part.end))};
   }
 
+  /// Whether a face around one of the edge's ends hides the point. In double: such faces may cover the point by less
+  /// than a ray in float can tell, all along the edge. Behind: whether it lies behind the point.
+  bool hidden_by_star(const EdgePoint& point, bool behind) const {
+    const Edge& edge = topology_.edges[point.edge];
+    const DVec3 at = position(edge.v[0]) * (1.0 - point.t) + position(edge.v[1]) * point.t;
+    const DVec3 to_eye = eye_.orthographic ? DVec3(eye_.at) : DVec3(eye_.at) - at;
+    for (const VertexId v : edge.v) {
+      for (const FaceId f : scene_.faces_around(v)) {
+        const Triangle& t = topology_.faces[f];
+        const VertexId other = edge.v[v == edge.v[0] ? 1 : 0];
+        if (t[0] == other || t[1] == other || t[2] == other) continue;
+        if (lies_along(t, at, behind ? -to_eye : to_eye)) return true;
+      }
+    }
+    return false;
+  }
+
+  bool lies_along(const Triangle& t, const DVec3& at, const DVec3& way) const {
+    const DVec3 a = position(t[0]) - at, b = position(t[1]) - at, c = position(t[2]) - at;
+    const double u = glm::dot(way, glm::cross(b, c)), v = glm::dot(way, glm::cross(c, a)),
+                 w = glm::dot(way, glm::cross(a, b));
+    const double sum = u + v + w;
+    if (!((u > 0.0 && v > 0.0 && w > 0.0) || (u < 0.0 && v < 0.0 && w < 0.0))) return false;
+    return glm::dot(a * (u / sum) + b * (v / sum) + c * (w / sum), way) > 0.0;
+  }
+
   template <class Body>
   static void in_blocks(std::size_t count, const Body& body) {
     parallel_for((count + kRayBlock - 1) / kRayBlock, 1, [&](std::size_t begin, std::size_t end) {
@@ -307,6 +333,8 @@ class VisibilityFinder {
       points[g] = middle(parts_[deciding_[g]]);
     in_blocks(points.size(), [&](std::size_t begin, std::size_t size) {
       scene_.rays().hides(eye_, std::span(points).subspan(begin, size), std::span(hidden).subspan(begin, size));
+      for (std::size_t g = begin; g < begin + size; ++g)
+        hidden[g] = hidden[g] != 0 || hidden_by_star(points[g], false);
     });
     visible_.resize(parts_.size());
     for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -373,6 +401,8 @@ class VisibilityFinder {
     in_blocks(points.size(), [&](std::size_t begin, std::size_t size) {
       scene_.rays().background_behind(eye_, std::span(points).subspan(begin, size),
                                       std::span(background).subspan(begin, size));
+      for (std::size_t i = begin; i < begin + size; ++i)
+        background[i] = background[i] != 0 && !hidden_by_star(points[i], true);
     });
     for (std::size_t i = 0; i < asked.size(); ++i)
       outer[asked[i]] = background[i];
