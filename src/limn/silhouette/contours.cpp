@@ -105,9 +105,23 @@ class SilhouetteChainer {
                     std::span<const EdgeId> edges)
       : topology_(topology), planes_(planes), eye_(eye) {
     const std::vector<EdgeId> once = sorted_once(edges);
-    steps_.reserve(once.size());
-    for (const EdgeId e : once)
-      steps_.push_back(directed(e));
+    // Loads of scattered memory in passes without a branch, so that many are under way at once.
+    std::vector<Edge> found(once.size());
+    std::vector<std::uint8_t> first_is_front(once.size()), manifold(once.size());
+    for (std::size_t i = 0; i < once.size(); ++i) {
+      found[i] = topology.edges[once[i]];
+      manifold[i] = topology.edge_class[once[i]] == EdgeClass::kManifold;
+    }
+    for (std::size_t i = 0; i < once.size(); ++i)
+      first_is_front[i] = faces_eye(planes[found[i].face[0]], eye);
+    steps_.resize(once.size());
+    for (std::size_t i = 0; i < once.size(); ++i) {
+      const Edge& edge = found[i];
+      const std::size_t front = first_is_front[i] != 0 ? 0 : 1;
+      std::size_t from = front;
+      if (manifold[i] == 0) from = face_runs_forward(topology, edge.face[front], once[i]) ? 0 : 1;
+      steps_[i] = {once[i], edge.v[from], edge.v[1 - from]};
+    }
   }
 
   Chains chain() {
@@ -130,14 +144,6 @@ class SilhouetteChainer {
   FaceId front_face(EdgeId e) const {
     const Edge& edge = topology_.edges[e];
     return faces_eye(planes_[edge.face[0]], eye_) ? edge.face[0] : edge.face[1];
-  }
-
-  ChainStep directed(EdgeId e) const {
-    const Edge& edge = topology_.edges[e];
-    const FaceId front = front_face(e);
-    const bool forward = topology_.edge_class[e] == EdgeClass::kManifold ? front == edge.face[0]
-                                                                         : face_runs_forward(topology_, front, e);
-    return forward ? ChainStep{e, edge.v[0], edge.v[1]} : ChainStep{e, edge.v[1], edge.v[0]};
   }
 
   void link(std::uint32_t from, std::uint32_t to) {

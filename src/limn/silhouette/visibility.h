@@ -22,7 +22,7 @@ class VisibilityScene {
  public:
   /// Keeps references to both, which must outlive it and stay where they are.
   /// \param many_views  look now, at every edge, where the mesh intersects itself, rather than at the lines of each
-  ///                    view: about doubles the time to build, and saves a ray a line's edge in each view
+  ///                    view: two to four times as long to build, and saves a ray a line's edge in each view
   /// Cost: RayScene's, and two passes over the faces. Errors: RayScene's. \pre as for RayScene
   static Result<VisibilityScene> build(const Mesh& mesh, const Topology& topology, bool many_views = false);
 
