@@ -2,12 +2,14 @@
 //
 //   extraction [--models DIR] [--largest FACES] [--views N] [--seed N] [--threads N] [--only NAME…] [--no-vtk] [--gpu]
 //              [--svg FILE] [--json]
+//   extraction --sander [--models DIR] [--views N] [--svg FILE]
 //
 // Dyken et al. 2008, figure 9a: the asteroid from 200 to 10,000,000 faces, bunny, knot, and a rough adversary. A table
 // on standard output, or JSON with --json; --svg draws time against faces.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "limn/silhouette/simd/level.h"
 
 #include "extraction_dyken.h"
+#include "extraction_sander.h"
 #include "plot.h"
 
 namespace limn::bench {
@@ -30,6 +33,7 @@ struct Arguments {
   std::vector<std::string> only;
   std::string svg;
   bool json = false;
+  bool sander = false;
 };
 
 bool wanted(const Arguments& arguments, const std::string& name) {
@@ -165,6 +169,53 @@ int run(const Arguments& arguments) {
   return std::any_of(rows.begin(), rows.end(), [](const ExtractionRow& row) { return row.mismatches != 0; }) ? 5 : 0;
 }
 
+nlohmann::ordered_json to_json(const SanderRow& row) {
+  const auto search = [](const SearchMeasured& measured) {
+    return nlohmann::ordered_json{{"edges", measured.edges},
+                                  {"nodes", measured.nodes},
+                                  {"edge_equivalents", measured.edge_equivalents()},
+                                  {"us", measured.us}};
+  };
+  return {{"name", row.name},
+          {"faces", row.faces},
+          {"edges", row.edges},
+          {"silhouette_edges", row.silhouette_edges},
+          {"build_s", row.build_s},
+          {"forest", search(row.forest)},
+          {"johannsen_carter", search(row.johannsen_carter)},
+          {"brute_us", row.brute_us},
+          {"mismatches", row.mismatches}};
+}
+
+int run_sander(const Arguments& arguments) {
+  SanderOptions options;
+  options.views = arguments.options.views;
+  options.seed = arguments.options.seed;
+  const Result<std::vector<SanderRow>> rows = measure_table2(arguments.models, options);
+  if (!rows) {
+    fmt::print(stderr, "extraction: {}\n", format_error(rows.error()));
+    return 3;
+  }
+  if (arguments.json) {
+    nlohmann::ordered_json json = {{"views", options.views}, {"rows", nlohmann::ordered_json::array()}};
+    for (const SanderRow& row : *rows)
+      json["rows"].push_back(to_json(row));
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{}", sander_table(*rows));
+  }
+  std::vector<SanderRow> bunnies;
+  std::copy_if(rows->begin(), rows->end(), std::back_inserter(bunnies),
+               [](const SanderRow& row) { return row.name.starts_with("bunny"); });
+  if (!arguments.svg.empty() && !bunnies.empty()) {
+    if (const auto written = write_file(arguments.svg, plot_svg({sander_plot(bunnies)})); !written) {
+      fmt::print(stderr, "extraction: {}\n", format_error(written.error()));
+      return 3;
+    }
+  }
+  return std::any_of(rows->begin(), rows->end(), [](const SanderRow& row) { return row.mismatches != 0; }) ? 5 : 0;
+}
+
 }  // namespace
 }  // namespace limn::bench
 
@@ -183,8 +234,9 @@ int main(int argc, char** argv) {
   app.add_flag("--no-vtk", no_vtk, "Without vtkPolyDataSilhouette");
   app.add_flag("--gpu", arguments.options.gpu, "With extraction on the graphics device");
   app.add_option("--svg", arguments.svg, "Draw time against faces into this file");
+  app.add_flag("--sander", arguments.sander, "Table 2 and figure 9 of Sander et al. 2000");
   app.add_flag("--json", arguments.json, "JSON instead of a table");
   CLI11_PARSE(app, argc, argv);
   arguments.options.vtk = !no_vtk;
-  return run(arguments);
+  return arguments.sander ? run_sander(arguments) : run(arguments);
 }

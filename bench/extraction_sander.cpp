@@ -4,10 +4,13 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <numeric>
+#include <tuple>
 
 #include "limn/base/bounds.h"
 #include "limn/base/parallel.h"
 #include "limn/base/random.h"
+#include "limn/mesh/import.h"
+#include "limn/mesh/shapes.h"
 #include "limn/silhouette/brute.h"
 #include "limn/silhouette/johannsen_carter.h"
 
@@ -155,6 +158,39 @@ Result<std::vector<SanderRow>> measure_figure9(const std::string& name, const Me
   Result<SanderRow> whole = measure_sander(name, mesh, options);
   if (!whole) return tl::unexpected(whole.error());
   rows.push_back(std::move(*whole));
+  return rows;
+}
+
+Result<std::vector<SanderRow>> measure_table2(const std::filesystem::path& models, const SanderOptions& options) {
+  std::vector<SanderRow> rows;
+  const std::filesystem::path bunny_file = models / "bunny.obj";
+  if (std::filesystem::exists(bunny_file)) {
+    const Result<ImportedMesh> bunny = read_mesh(bunny_file);
+    if (!bunny) return tl::unexpected(bunny.error());
+    Result<std::vector<SanderRow>> figure9 = measure_figure9("bunny", bunny->mesh, options);
+    if (!figure9) return figure9;
+    rows = std::move(*figure9);
+  }
+  const auto add = [&](const std::string& name, const Mesh& mesh) -> Result<void> {
+    Result<SanderRow> row = measure_sander(name, mesh, options);
+    if (!row) return tl::unexpected(row.error());
+    rows.push_back(std::move(*row));
+    return {};
+  };
+  const std::tuple<const char*, Shape, std::size_t> shapes[] = {{"knot", Shape::kKnot, 185'856},
+                                                                {"holes3", Shape::kHoles3, 188'416}};
+  for (const auto& [name, shape, faces] : shapes) {
+    const Result<Mesh> mesh = make_shape(shape, {.faces = faces});
+    if (!mesh) return tl::unexpected(mesh.error());
+    if (const Result<void> added = add(name, *mesh); !added) return tl::unexpected(added.error());
+  }
+  for (const char* const file : {"armadillo.off", "ChineseDragon-10kv.off"}) {
+    if (!std::filesystem::exists(models / file)) continue;
+    const Result<ImportedMesh> model = read_mesh(models / file);
+    if (!model) return tl::unexpected(model.error());
+    const std::string name = std::filesystem::path(file).stem().string();
+    if (const Result<void> added = add(name, model->mesh); !added) return tl::unexpected(added.error());
+  }
   return rows;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,10 @@ Result<SanderRow> measure_sander(const std::string& name, const Mesh& mesh, cons
 
 /// The rows of figure 9: the mesh reduced to 500, 4,000, 20,000 and 50,000 faces, and itself.
 Result<std::vector<SanderRow>> measure_figure9(const std::string& name, const Mesh& mesh, const SanderOptions& options);
+
+/// Figure 9's rows of the bunny, then table 2's: shapes and models like the paper's at its sizes. What is not in the
+/// folder is left out. Errors: as read_mesh and make_shape.
+Result<std::vector<SanderRow>> measure_table2(const std::filesystem::path& models, const SanderOptions& options);
 
 /// Table 2 as text: one line a row.
 std::string sander_table(const std::vector<SanderRow>& rows);

@@ -12,7 +12,7 @@ namespace limn {
 
 /// How silhouettes are searched. All give the same set.
 enum class SearchMethod {
-  kAuto,   ///< the tree, or brute force from eyes for which the tree leaves too little out
+  kAuto,   ///< the tree, or brute force for meshes or from eyes for which the tree leaves too little out
   kBrute,  ///< every edge, in blocks (edge_blocks.h)
   kFlat,   ///< every node above the leaves, then the leaves that need it
   kTree,   ///< down the tree (search_tree.h)

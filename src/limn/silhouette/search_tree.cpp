@@ -2,9 +2,17 @@
 
 #include <algorithm>
 
+#include "limn/base/parallel.h"
 #include "limn/silhouette/node_bounds.h"
 
 namespace limn {
+namespace {
+
+constexpr std::size_t kLeavesPerTask = 2048;
+/// Fewer tasks than these are done before another thread has woken up.
+constexpr std::size_t kTasksWorthThreads = 4;
+
+}  // namespace
 
 SearchTree::SearchTree(std::span<const LeafCluster> clusters, std::span<const Plane> planes,
                        const QuantizedFrame& frame)
@@ -57,6 +65,12 @@ std::optional<std::span<const EdgeId>> SearchTree::find_if_sparse(const Eye& eye
   return read(entered, words, scratch, level);
 }
 
+void SearchTree::count_leaves(const Eye& eye, SearchScratch& scratch, SearchCounters& counters) const {
+  if (leaves_.empty()) return;
+  const ExactContext context{planes_, eye};
+  enter(levels_.size() - 1, quantize(frame_, context), scratch, &counters, best_simd_level());
+}
+
 SearchTree::Entered SearchTree::enter(std::size_t top, const simd::EyeWords& eye, SearchScratch& scratch,
                                       SearchCounters* counters, SimdLevel level) const {
   Entered entered{nullptr, leaves_.size()};
@@ -78,10 +92,33 @@ SearchTree::Entered SearchTree::enter(std::size_t top, const simd::EyeWords& eye
 
 std::span<const EdgeId> SearchTree::read(const Entered& entered, const simd::EyeWords& eye, SearchScratch& scratch,
                                          SimdLevel level) const {
-  const std::size_t room = simd::kWidth * (entered.count + 1);
-  if (scratch.edges.size() < room) scratch.edges.resize(room);
-  const std::size_t found = simd::kernels(level).sweep_leaves(leaves_.data(), leaf_faces_.data(), entered.leaves,
-                                                              entered.count, eye, scratch.edges.data());
+  // Each task writes into a room of its own, with what the kernels need beyond the last number.
+  constexpr std::size_t kRoom = simd::kWidth * (kLeavesPerTask + 1);
+  const simd::Kernels& kernels = simd::kernels(level);
+  const std::size_t tasks = (entered.count + kLeavesPerTask - 1) / kLeavesPerTask;
+  if (scratch.edges.size() < tasks * kRoom) scratch.edges.resize(tasks * kRoom);
+  scratch.counts.resize(tasks);
+  const auto sweep = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const std::size_t first = t * kLeavesPerTask;
+      const std::size_t count = std::min(kLeavesPerTask, entered.count - first);
+      // Without a list the leaves themselves begin further on.
+      const simd::Leaf* leaves = leaves_.data() + (entered.leaves != nullptr ? 0 : first);
+      const FaceId* faces = leaf_faces_.data() + (entered.leaves != nullptr ? 0 : simd::kWidth * first);
+      const std::uint32_t* list = entered.leaves != nullptr ? entered.leaves + first : nullptr;
+      scratch.counts[t] = kernels.sweep_leaves(leaves, faces, list, count, eye, scratch.edges.data() + t * kRoom);
+    }
+  };
+  if (tasks < kTasksWorthThreads)
+    sweep(0, tasks);
+  else
+    parallel_for(tasks, 1, sweep);
+  std::size_t found = 0;
+  for (std::size_t t = 0; t < tasks; ++t) {
+    const std::uint32_t* from = scratch.edges.data() + t * kRoom;
+    if (t != 0) std::copy_n(from, scratch.counts[t], scratch.edges.data() + found);
+    found += scratch.counts[t];
+  }
   return {scratch.edges.data(), found};
 }
 

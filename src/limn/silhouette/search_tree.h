@@ -21,7 +21,8 @@ struct SearchCounters {
 /// Memory that queries use, kept from one to the next. One a thread.
 struct SearchScratch {
   LineVector<std::uint32_t> current, next, edges;
-  std::vector<EdgeId> all;  ///< what brute force found
+  std::vector<EdgeId> all;          ///< what brute force found
+  std::vector<std::size_t> counts;  ///< edges found by each task
 };
 
 /// A tree of edge clusters, 16 children to a node, that finds the silhouette by leaving out whatever surely faces one
@@ -46,7 +47,7 @@ class SearchTree {
 
   /// Every silhouette edge once: the set of extract_silhouette_brute(), in the order of the leaves.
   /// \return the edges, within the scratch: valid until it is used again. Same order for any level.
-  /// Cost: grows with the silhouette; see docs/search-tree.md.
+  /// Cost: grows with the silhouette; see docs/search-tree.md. Uses threads where thousands of leaves are entered.
   std::span<const EdgeId> find(const Eye& eye, SearchScratch& scratch, SearchCounters* counters = nullptr,
                                SimdLevel level = best_simd_level()) const;
 
@@ -57,6 +58,9 @@ class SearchTree {
   /// As find(), unless more than `most_leaves` leaves are entered: then nothing, and brute force is the faster way.
   std::optional<std::span<const EdgeId>> find_if_sparse(const Eye& eye, std::size_t most_leaves, SearchScratch& scratch,
                                                         SimdLevel level = best_simd_level()) const;
+
+  /// Counts what find() would visit, without reading the leaves.
+  void count_leaves(const Eye& eye, SearchScratch& scratch, SearchCounters& counters) const;
 
   std::size_t leaf_count() const { return leaves_.size(); }
   std::size_t edge_count() const { return edge_count_; }
