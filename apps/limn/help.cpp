@@ -9,7 +9,7 @@ namespace limn::cli {
 namespace {
 
 /// Groups in the order in which a crowded page shortens them.
-constexpr std::array kShortenFirst{Group::kCommon, Group::kLevels, Group::kCamera, Group::kFiles};
+constexpr std::array kShortenFirst{Group::kCommon, Group::kLevels, Group::kCamera, Group::kFiles, Group::kPage};
 
 /// The names that stand in for long lists of choices on a shortened line.
 std::string short_spelling(const Option& option) {
@@ -63,7 +63,7 @@ std::string heading(const Verb& verb) {
 std::string options_text(const OptionTable& table, const std::set<Group>& shortened) {
   std::string text;
   for (const Group group :
-       {Group::kArguments, Group::kOwn, Group::kFiles, Group::kCamera, Group::kLevels, Group::kCommon}) {
+       {Group::kArguments, Group::kOwn, Group::kPage, Group::kFiles, Group::kCamera, Group::kLevels, Group::kCommon}) {
     append_group(text, table, group, shortened.contains(group));
   }
   return text;
@@ -113,7 +113,7 @@ std::string verb_page(const Verb& verb) {
   std::string page = heading(verb);
   const OptionTable table = table_of(verb);
   for (const Group group :
-       {Group::kArguments, Group::kOwn, Group::kFiles, Group::kCamera, Group::kLevels, Group::kCommon}) {
+       {Group::kArguments, Group::kOwn, Group::kPage, Group::kFiles, Group::kCamera, Group::kLevels, Group::kCommon}) {
     if (members(table, group).empty()) continue;
     page += fmt::format("{}:\n", group_title(group));
     append_group(page, table, group, false);

@@ -103,6 +103,10 @@ Result<void> check_output(const Session& session, const OutputOptions& options) 
   return check_folder(options.path);
 }
 
+Result<void> check_destination(const Session& session, const std::string& path) {
+  return path == "-" ? check_free_stdout(session) : check_folder(path);
+}
+
 Result<void> check_picture_output(const Session& session, const std::string& path, std::string_view extension) {
   if (path == "-") return check_free_stdout(session);
   if (std::filesystem::path(path).extension() != extension) {

@@ -53,6 +53,9 @@ Result<void> save(Session& session, const Mesh& mesh, const OutputOptions& optio
 /// The error, naming the input it is about where it is a mesh's fault.
 Error about(Error error, const std::string& path);
 
+/// Whether something can be written there: its folder is there, and standard output not wanted for two things at once.
+Result<void> check_destination(const Session& session, const std::string& path);
+
 /// check_output for a file that is no mesh. \param extension what its name must end in (".png")
 Result<void> check_picture_output(const Session& session, const std::string& path, std::string_view extension);
 

@@ -13,6 +13,8 @@ std::string_view group_title(Group group) {
       return "arguments";
     case Group::kOwn:
       return "options";
+    case Group::kPage:
+      return "page";
     case Group::kFiles:
       return "files";
     case Group::kCamera:

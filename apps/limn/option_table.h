@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,7 +16,7 @@
 namespace limn::cli {
 
 /// Where an option stands in help pages. Later groups are the first to be shortened when a page would not fit a screen.
-enum class Group { kArguments, kOwn, kFiles, kCamera, kLevels, kCommon };
+enum class Group { kArguments, kOwn, kPage, kFiles, kCamera, kLevels, kCommon };
 std::string_view group_title(Group group);
 
 /// What completion offers for a value.
@@ -70,6 +71,10 @@ class OptionTable {
   template <class T>
   Option& choice(std::string name, T& target, std::initializer_list<std::pair<std::string_view, T>> words,
                  std::string what) {
+    return choice(std::move(name), target, std::span(words.begin(), words.size()), std::move(what));
+  }
+  template <class T>
+  Option& choice(std::string name, T& target, std::span<const std::pair<std::string_view, T>> words, std::string what) {
     std::vector<std::pair<std::string, T>> table(words.begin(), words.end());
     std::vector<std::string> names;
     for (const auto& word : table)

@@ -119,6 +119,16 @@ Result<Size> parse_size(std::string_view text) {
   return Size{static_cast<int>(*width), static_cast<int>(*height)};
 }
 
+Result<double> parse_ratio(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text, ':');
+  constexpr Range kPositive{0.0, std::numeric_limits<double>::max(), true, false};
+  const auto first = parse_number(parts.front(), kPositive);
+  const auto second = parse_number(parts.back(), kPositive);
+  const bool read = parts.size() == 2 && first && second;
+  if (!read || !std::isnormal(*first / *second)) return expected("a ratio A:B of numbers above 0", text);
+  return *first / *second;
+}
+
 Result<Vec4> parse_color(std::string_view text) {
   std::string_view hex = text;
   for (const auto& [name, value] : kColors) {

@@ -35,6 +35,9 @@ struct Size {
 /// "WxH", or "N" for a square; each from 1 to 16384.
 Result<Size> parse_size(std::string_view text);
 
+/// "A:B", both above 0, as A / B.
+Result<double> parse_ratio(std::string_view text);
+
 /// A name, #rgb, #rrggbb, #rrggbbaa, or "transparent"; sRGB 0 … 1.
 Result<Vec4> parse_color(std::string_view text);
 

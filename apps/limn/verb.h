@@ -46,6 +46,7 @@ Verb info_verb();
 Verb make_verb();
 Verb refine_verb();
 Verb render_verb();
+Verb silhouette_verb();
 Verb compare_verb();
 Verb help_verb();
 Verb version_verb();

@@ -42,6 +42,11 @@ TEST_F(Examples, OfRenderRun) {
   run_all("render");
 }
 #endif
+#ifdef LIMN_WITH_EMBREE
+TEST_F(Examples, OfSilhouetteRun) {
+  run_all("silhouette");
+}
+#endif
 TEST_F(Examples, OfCompareRun) {
   run_all("compare");
 }
@@ -51,10 +56,12 @@ TEST_F(Examples, OfTheOthersRun) {
 }
 
 TEST_F(Examples, CoverEveryVerb) {
+  std::size_t count = 9;
 #ifdef LIMN_WITH_GL
-  const std::size_t count = 10;
-#else
-  const std::size_t count = 9;
+  ++count;
+#endif
+#ifdef LIMN_WITH_EMBREE
+  ++count;
 #endif
   EXPECT_EQ(limn.json({"help"})["verbs"].size(), count) << "a verb without a test above";
 }

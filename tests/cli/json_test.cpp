@@ -124,6 +124,21 @@ TEST_F(Json, OfRenderIsAsDocumented) {
 
 #endif
 
+#ifdef LIMN_WITH_EMBREE
+
+TEST_F(Json, OfSilhouetteIsAsDocumented) {
+  expect_schema(limn.json({"silhouette", "knot.ply", "-o", "knot.svg"}), "silhouette");
+  expect_schema(limn.json({"silhouette", "knot.ply", "-o", "knot.dxf", "--ortho", "--scale", "10:1"}), "silhouette");
+  expect_schema(limn.json({"silhouette", "broken.obj", "-o", "b.ply", "--repair"}), "silhouette");
+}
+
+TEST_F(Json, OfAListOfEdgesIsAsDocumented) {
+  limn.json({"silhouette", "knot.ply", "-o", "knot.json", "--all", "--classes", "silhouette,crease"});
+  expect_schema(json::parse(slurp(folder / "knot.json")), "A list of edges: silhouette -o FILE.json");
+}
+
+#endif
+
 TEST_F(Json, OfCompareIsAsDocumented) {
   expect_schema(limn.json({"compare", "knot.ply", "knot.ply", "--views", "2", "--size", "64"}), "compare");
 }
