@@ -17,7 +17,7 @@
 #include "limn/base/file.h"
 #include "limn/mesh/import.h"
 #include "limn/mesh/shapes.h"
-#include "limn/silhouette/simd/level.h"
+#include "limn/silhouette/search/simd/level.h"
 
 #include "extraction_dyken.h"
 #include "extraction_sander.h"

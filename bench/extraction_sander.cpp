@@ -12,7 +12,7 @@
 #include "limn/mesh/import.h"
 #include "limn/mesh/shapes.h"
 #include "limn/silhouette/brute.h"
-#include "limn/silhouette/johannsen_carter.h"
+#include "limn/silhouette/sander/johannsen_carter.h"
 
 #include "reduce.h"
 

@@ -7,7 +7,7 @@
 
 #include "limn/base/result.h"
 #include "limn/mesh/mesh.h"
-#include "limn/silhouette/paper_forest.h"
+#include "limn/silhouette/sander/paper_forest.h"
 
 #include "plot.h"
 

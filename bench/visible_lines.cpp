@@ -6,7 +6,7 @@
 // Asteroid and knot of 100k and 1M triangles and the given models, from random points at 1.2 diagonals; medians over
 // the views. The oracle counts the faces in front of random points on lines, all of them in double, without tree or
 // Embree. Points are left out within 1e-4 of the model's diagonal, along the line, of a change that the oracle sees.
-#include "limn/silhouette/visible_lines.h"
+#include "limn/silhouette/visible/visible_lines.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

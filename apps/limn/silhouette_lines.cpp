@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "limn/silhouette/outer_outline.h"
+#include "limn/silhouette/visible/outer_outline.h"
 
 #include "stopwatch.h"
 

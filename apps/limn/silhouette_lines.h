@@ -3,7 +3,7 @@
 #include "limn/base/camera.h"
 #include "limn/base/progress.h"
 #include "limn/mesh/topology.h"
-#include "limn/silhouette/visible_lines.h"
+#include "limn/silhouette/visible/visible_lines.h"
 
 #include "silhouette_options.h"
 

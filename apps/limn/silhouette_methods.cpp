@@ -5,7 +5,7 @@
 
 #include "limn/silhouette/brute.h"
 #include "limn/silhouette/extractor.h"
-#include "limn/silhouette/paper_forest.h"
+#include "limn/silhouette/sander/paper_forest.h"
 #ifdef LIMN_WITH_GL
 #include "limn/render/extraction.h"
 #endif

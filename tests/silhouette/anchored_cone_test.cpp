@@ -1,4 +1,4 @@
-#include "limn/silhouette/anchored_cone.h"
+#include "limn/silhouette/sander/anchored_cone.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include "limn/base/linear_program.h"
 #include "limn/base/random.h"
 #include "limn/mesh/shapes.h"
-#include "limn/silhouette/viewpoint_volume.h"
+#include "limn/silhouette/sander/viewpoint_volume.h"
 
 namespace limn {
 namespace {

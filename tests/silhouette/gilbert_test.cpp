@@ -1,4 +1,4 @@
-#include "limn/silhouette/gilbert.h"
+#include "limn/silhouette/sander/gilbert.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "limn/silhouette/paper_forest.h"
+#include "limn/silhouette/sander/paper_forest.h"
 
 #include <algorithm>
 #include <cstring>
@@ -12,7 +12,7 @@
 #include "limn/mesh/normals.h"
 #include "limn/mesh/shapes.h"
 #include "limn/silhouette/brute.h"
-#include "limn/silhouette/johannsen_carter.h"
+#include "limn/silhouette/sander/johannsen_carter.h"
 
 #include "support/stable.h"
 

@@ -1,4 +1,4 @@
-#include "limn/silhouette/search_tree_file.h"
+#include "limn/silhouette/search/search_tree_file.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

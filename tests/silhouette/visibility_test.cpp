@@ -1,4 +1,4 @@
-#include "limn/silhouette/visibility.h"
+#include "limn/silhouette/visible/visibility.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include "limn/mesh/normals.h"
 #include "limn/mesh/shapes.h"
 #include "limn/silhouette/brute.h"
-#include "limn/silhouette/outer_outline.h"
-#include "limn/silhouette/visible_lines.h"
+#include "limn/silhouette/visible/outer_outline.h"
+#include "limn/silhouette/visible/visible_lines.h"
 
 #include "support/stable.h"
 

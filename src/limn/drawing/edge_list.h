@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "limn/mesh/topology.h"
-#include "limn/silhouette/visible_lines.h"
+#include "limn/silhouette/visible/visible_lines.h"
 
 namespace limn {
 

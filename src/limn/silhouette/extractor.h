@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "limn/mesh/topology.h"
-#include "limn/silhouette/edge_blocks.h"
-#include "limn/silhouette/search_tree.h"
+#include "limn/silhouette/search/edge_blocks.h"
+#include "limn/silhouette/search/search_tree.h"
 
 namespace limn {
 
