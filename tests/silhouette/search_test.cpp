@@ -7,7 +7,6 @@
 #include "limn/silhouette/extractor.h"
 #include "limn/silhouette/search/edge_blocks.h"
 #include "limn/silhouette/search/edge_clusters.h"
-#include "limn/silhouette/search/moving_silhouette.h"
 #include "limn/silhouette/search/search_tree.h"
 
 #include "silhouette/eyes.h"
@@ -179,52 +178,6 @@ TEST(Search, ExtractorEqualsTheOracleWhateverTheMethod) {
         EXPECT_EQ(extractor.find_sorted(eye), oracle);
       }
     }
-  }
-}
-
-/// Walks an eye along a path and counts the steps at which the set is not the oracle's.
-std::size_t wrong_steps(const Mesh& mesh, std::span<const Eye> path) {
-  const Finders finders(mesh);
-  MovingSilhouette moving(finders.tree);
-  std::size_t wrong = 0;
-  for (const Eye& eye : path) {
-    std::vector<EdgeId> oracle;
-    extract_silhouette_brute(finders.topology, finders.planes, eye, oracle);
-    wrong += sorted(moving.find(eye)) == oracle ? 0u : 1u;
-  }
-  return wrong;
-}
-
-TEST(MovingSilhouette, EqualsTheOracleAlongAnOrbit) {
-  for (const Shape shape : {Shape::kAsteroid, Shape::kKnot, Shape::kSheet}) {
-    const Mesh mesh = *make_shape(shape, {.faces = 20'000});
-    std::vector<Eye> orbit;
-    for (int i = 0; i < 200; ++i) {
-      const float angle = 0.00873f * static_cast<float>(i);
-      orbit.push_back({Vec3(3.0f * std::cos(angle), 0.7f, 3.0f * std::sin(angle))});
-    }
-    EXPECT_EQ(wrong_steps(mesh, orbit), 0u);
-    const Finders finders(mesh);
-    MovingSilhouette moving(finders.tree);
-    for (const Eye& eye : orbit)
-      moving.find(eye);
-    EXPECT_LT(moving.rebuilds(), orbit.size() / 4);
-    EXPECT_LT(moving.kept_leaves(), finders.tree.leaf_count());
-  }
-}
-
-TEST(MovingSilhouette, EqualsTheOracleThroughJumpsStopsAndChangesOfProjection) {
-  for (const StableMesh& stable : awkward_meshes()) {
-    std::vector<Eye> path;
-    Random random(3);
-    for (const Eye& eye : awkward_eyes(stable.mesh, 40, 31)) {
-      path.push_back(eye);
-      path.push_back(eye);
-      const float step = 0.02f * glm::length(eye.at);
-      for (int i = 0; i < 4; ++i)
-        path.push_back({path.back().at + step * random.direction(), eye.orthographic});
-    }
-    EXPECT_EQ(wrong_steps(stable.mesh, path), 0u) << stable.name;
   }
 }
 

@@ -221,9 +221,92 @@ std::size_t sweep_exact_blocks(const Block* blocks, std::size_t count, const Exa
   return static_cast<std::size_t>(end - slots);
 }
 
+/// How long a way the faces of half a leaf surely keep their sides for, one a lane.
+inline __m256 safe_ways(const PlaneGroup& planes, int half, const EyeWords& eye, const Heading& heading) {
+  const __m256i zero = _mm256_setzero_si256();
+  const __m256i value = values(planes, half, pairs(eye.x, eye.y), pairs(eye.z, eye.h));
+  const __m256i leaving = values(planes, half, pairs(heading.x, heading.y), pairs(heading.z, 0));
+  const __m256i front = _mm256_cmpgt_epi32(value, zero);
+  const __m256i nearing = _mm256_sub_epi32(_mm256_xor_si256(leaving, front), front);  // negated where front
+  const __m256i slack = _mm256_sub_epi32(_mm256_abs_epi32(value), _mm256_set1_epi32(eye.error));
+  const __m256 rate =
+      _mm256_add_ps(_mm256_mul_ps(_mm256_cvtepi32_ps(_mm256_max_epi32(nearing, zero)), _mm256_set1_ps(heading.along)),
+                    _mm256_set1_ps(heading.drift));
+  return _mm256_div_ps(_mm256_cvtepi32_ps(_mm256_max_epi32(slack, zero)), rate);
+}
+
+inline float least(__m256 numbers) {
+  __m128 four = _mm_min_ps(_mm256_castps256_ps128(numbers), _mm256_extractf128_ps(numbers, 1));
+  four = _mm_min_ps(four, _mm_movehl_ps(four, four));
+  return _mm_cvtss_f32(_mm_min_ss(four, _mm_movehdup_ps(four)));
+}
+
+/// Writes the slots of the leaf's edges that the mask names.
+inline std::uint32_t* append_slots(std::uint32_t mask, std::uint32_t leaf, std::uint32_t* end) {
+  const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  const __m256i slots = _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(kWidth * leaf)));
+  end = compress(mask & 0xff, slots, end);
+  return compress(mask >> 8, _mm256_add_epi32(slots, _mm256_set1_epi32(8)), end);
+}
+
+inline std::uint32_t unsure_bits(const PlaneGroup& planes, __m256i xy, __m256i zh, __m256i error) {
+  const __m256i low = _mm256_cmpgt_epi32(_mm256_abs_epi32(values(planes, 0, xy, zh)), error);
+  const __m256i high = _mm256_cmpgt_epi32(_mm256_abs_epi32(values(planes, 1, xy, zh)), error);
+  return ~to_mask(low, high) & 0xffffu;
+}
+
+void update_leaves(const Leaf* nodes, const std::uint32_t* leaf_faces, const std::uint32_t* leaves, std::size_t count,
+                   const EyeWords& eye, const Heading& heading, LeafChanges& changes) {
+  const __m256i xy = pairs(eye.x, eye.y), zh = pairs(eye.z, eye.h), error = _mm256_set1_epi32(eye.error);
+  const __m128i nibble = _mm_set1_epi8(15);
+  std::uint32_t* added = changes.added;
+  std::uint32_t* removed = changes.removed;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + kAhead < count) {
+      prefetch(&nodes[leaves[i + kAhead]], 4);
+      prefetch(&changes.silhouettes[leaves[i + kAhead]], 1);
+      prefetch(&changes.places[std::size_t{kWidth} * leaves[i + kAhead]], 1);
+    }
+    const std::uint32_t l = leaves[i];
+    const Leaf& leaf = nodes[l];
+    const std::uint32_t unsure = changes.unsure != nullptr ? unsure_bits(leaf.planes, xy, zh, error) : 0;
+    if (unsure != 0) [[unlikely]] {
+      prefetch(leaf_faces + std::size_t{kWidth} * l, 1);
+      changes.unsure[changes.unsure_count] = static_cast<std::uint32_t>(i);
+      changes.unsure_faces[changes.unsure_count++] = unsure;
+      continue;
+    }
+    const __m128i front = facing_bytes(leaf.planes, leaf_faces + std::size_t{kWidth} * l, xy, zh, error, eye);
+    const __m128i sides = _mm_load_si128(reinterpret_cast<const __m128i*>(leaf.sides));
+    const __m128i first = _mm_shuffle_epi8(front, _mm_and_si128(sides, nibble));
+    const __m128i second = _mm_shuffle_epi8(front, _mm_and_si128(_mm_srli_epi16(sides, 4), nibble));
+    const std::uint32_t now = static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_xor_si128(first, second)));
+    const std::uint32_t before = changes.silhouettes[l];
+    changes.silhouettes[l] = static_cast<std::uint16_t>(now);
+    added = append_slots(now & ~before, l, added);
+    removed = append_slots(before & ~now, l, removed);
+    changes.safe[i] =
+        least(_mm256_min_ps(safe_ways(leaf.planes, 0, eye, heading), safe_ways(leaf.planes, 1, eye, heading)));
+  }
+  changes.added_count = static_cast<std::size_t>(added - changes.added);
+  changes.removed_count = static_cast<std::size_t>(removed - changes.removed);
+}
+
+std::size_t find_due(const float* ways, std::size_t count, float way, std::uint32_t* indices) {
+  const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  std::uint32_t* end = indices;
+  for (std::size_t i = 0; i < count; i += 8) {
+    const std::uint32_t here = count - i < 8 ? (1u << (count - i)) - 1u : 0xffu;
+    const __m256 due = _mm256_cmp_ps(_mm256_loadu_ps(ways + i), _mm256_set1_ps(way), _CMP_LE_OQ);
+    const std::uint32_t mask = static_cast<std::uint32_t>(_mm256_movemask_ps(due)) & here;
+    if (mask != 0) end = compress(mask, _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(i))), end);
+  }
+  return static_cast<std::size_t>(end - indices);
+}
+
 }  // namespace
 
-const Kernels kAvx2Kernels = {sweep_groups, sweep_leaves, sweep_blocks, sweep_exact_blocks};
+const Kernels kAvx2Kernels = {sweep_groups, sweep_leaves, sweep_blocks, sweep_exact_blocks, update_leaves, find_due};
 
 }  // namespace limn::simd
 

@@ -180,9 +180,76 @@ std::size_t sweep_exact_blocks(const Block* blocks, std::size_t count, const Exa
   return static_cast<std::size_t>(end - slots);
 }
 
+void update_leaves(const Leaf* nodes, const std::uint32_t* leaf_faces, const std::uint32_t* leaves, std::size_t count,
+                   const EyeWords& eye, const Heading& heading, LeafChanges& changes) {
+  const __m512i xy = pairs(eye.x, eye.y), zh = pairs(eye.z, eye.h), error = _mm512_set1_epi32(eye.error);
+  const __m512i heading_xy = pairs(heading.x, heading.y), heading_z = pairs(heading.z, 0);
+  const __m512 along = _mm512_set1_ps(heading.along), drift = _mm512_set1_ps(heading.drift);
+  const __m512i zero = _mm512_setzero_si512();
+  const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  std::uint32_t* added = changes.added;
+  std::uint32_t* removed = changes.removed;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + kAhead < count) {
+      prefetch(&nodes[leaves[i + kAhead]], 4);
+      prefetch(&changes.silhouettes[leaves[i + kAhead]], 1);
+      prefetch(&changes.places[std::size_t{kWidth} * leaves[i + kAhead]], 1);
+    }
+    const std::uint32_t l = leaves[i];
+    const Leaf& leaf = nodes[l];
+    __m512i value = values(leaf.planes, xy, zh);
+    const __m512i leaving = values(leaf.planes, heading_xy, heading_z);
+    const __m512i nearing = _mm512_mask_sub_epi32(leaving, _mm512_cmpgt_epi32_mask(value, zero), zero, leaving);
+    const __m512i slack = _mm512_sub_epi32(_mm512_abs_epi32(value), error);
+    const __m512 rate = _mm512_add_ps(_mm512_mul_ps(_mm512_cvtepi32_ps(_mm512_max_epi32(nearing, zero)), along), drift);
+    changes.safe[i] = _mm512_reduce_min_ps(_mm512_div_ps(_mm512_cvtepi32_ps(_mm512_max_epi32(slack, zero)), rate));
+    const __mmask16 unsure = _mm512_cmple_epi32_mask(slack, zero);
+    if (unsure != 0) [[unlikely]] {
+      if (changes.unsure != nullptr) {
+        prefetch(leaf_faces + std::size_t{kWidth} * l, 1);
+        changes.unsure[changes.unsure_count] = static_cast<std::uint32_t>(i);
+        changes.unsure_faces[changes.unsure_count++] = unsure;
+        continue;
+      }
+      const std::uint32_t front = eye.exact(eye.context, leaf_faces + std::size_t{kWidth} * l, unsure);
+      value = _mm512_mask_set1_epi32(value, unsure, -1);
+      value = _mm512_mask_set1_epi32(value, static_cast<__mmask16>(front), 1);
+    }
+    const __m512i sides = _mm512_cvtepu8_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(leaf.sides)));
+    const __m512i differ = _mm512_xor_si512(_mm512_permutexvar_epi32(sides, value),
+                                            _mm512_permutexvar_epi32(_mm512_srli_epi32(sides, 4), value));
+    const std::uint32_t now = _mm512_movepi32_mask(differ);
+    const std::uint32_t before = changes.silhouettes[l];
+    changes.silhouettes[l] = static_cast<std::uint16_t>(now);
+    const __m512i slots = _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<int>(kWidth * l)));
+    _mm512_storeu_si512(added, _mm512_maskz_compress_epi32(static_cast<__mmask16>(now & ~before), slots));
+    _mm512_storeu_si512(removed, _mm512_maskz_compress_epi32(static_cast<__mmask16>(before & ~now), slots));
+    added += _mm_popcnt_u32(now & ~before);
+    removed += _mm_popcnt_u32(before & ~now);
+  }
+  changes.added_count = static_cast<std::size_t>(added - changes.added);
+  changes.removed_count = static_cast<std::size_t>(removed - changes.removed);
+}
+
+std::size_t find_due(const float* ways, std::size_t count, float way, std::uint32_t* indices) {
+  const __m512 limit = _mm512_set1_ps(way);
+  const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  std::uint32_t* end = indices;
+  for (std::size_t i = 0; i < count; i += kWidth) {
+    const std::uint32_t here = count - i < kWidth ? (1u << (count - i)) - 1u : 0xffffu;
+    const __mmask16 due =
+        _mm512_mask_cmp_ps_mask(static_cast<__mmask16>(here), _mm512_loadu_ps(ways + i), limit, _CMP_LE_OQ);
+    if (due == 0) continue;
+    const __m512i numbers = _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<int>(i)));
+    _mm512_storeu_si512(end, _mm512_maskz_compress_epi32(due, numbers));
+    end += _mm_popcnt_u32(due);
+  }
+  return static_cast<std::size_t>(end - indices);
+}
+
 }  // namespace
 
-const Kernels kAvx512Kernels = {sweep_groups, sweep_leaves, sweep_blocks, sweep_exact_blocks};
+const Kernels kAvx512Kernels = {sweep_groups, sweep_leaves, sweep_blocks, sweep_exact_blocks, update_leaves, find_due};
 
 }  // namespace limn::simd
 

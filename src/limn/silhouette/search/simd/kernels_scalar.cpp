@@ -40,6 +40,13 @@ std::size_t sweep_groups(const NodeGroup* nodes, const std::uint32_t* groups, st
   return written;
 }
 
+std::uint32_t unsure_bits(const PlaneGroup& planes, const EyeWords& eye) {
+  std::uint32_t unsure = 0;
+  for (int lane = 0; lane < kWidth; ++lane)
+    unsure |= (magnitude(value_of(planes, lane, eye)) <= eye.error ? 1u : 0u) << lane;
+  return unsure;
+}
+
 /// The facing bits of 16 faces; the exact test settles what the quantized planes cannot.
 std::uint32_t facing_bits(const PlaneGroup& planes, const std::uint32_t* faces, const EyeWords& eye) {
   std::uint32_t front = 0, unsure = 0;
@@ -115,8 +122,65 @@ std::size_t sweep_exact_blocks(const Block* blocks, std::size_t count, const Exa
   return written;
 }
 
+/// How long a way the faces of a leaf surely keep their sides for.
+float safe_way(const PlaneGroup& planes, const EyeWords& eye, const Heading& heading) {
+  float safe = 3.4e38f;
+  for (int lane = 0; lane < kWidth; ++lane) {
+    const std::int32_t value = value_of(planes, lane, eye);
+    const std::int32_t leaving =
+        planes.xy[2 * lane] * heading.x + planes.xy[2 * lane + 1] * heading.y + planes.zd[2 * lane] * heading.z;
+    const std::int32_t nearing = value > 0 ? -leaving : leaving;
+    const std::int32_t slack = magnitude(value) - eye.error;
+    const float rate = static_cast<float>(nearing > 0 ? nearing : 0) * heading.along + heading.drift;
+    const float way = static_cast<float>(slack > 0 ? slack : 0) / rate;
+    safe = way < safe ? way : safe;
+  }
+  return safe;
+}
+
+void update_leaves(const Leaf* nodes, const std::uint32_t* leaf_faces, const std::uint32_t* leaves, std::size_t count,
+                   const EyeWords& eye, const Heading& heading, LeafChanges& changes) {
+  std::size_t added = 0, removed = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t l = leaves[i];
+    const Leaf& leaf = nodes[l];
+    const std::uint32_t unsure = changes.unsure != nullptr ? unsure_bits(leaf.planes, eye) : 0;
+    if (unsure != 0) {
+      changes.unsure[changes.unsure_count] = static_cast<std::uint32_t>(i);
+      changes.unsure_faces[changes.unsure_count++] = unsure;
+      continue;
+    }
+    const std::uint32_t front = facing_bits(leaf.planes, leaf_faces + std::size_t{kWidth} * l, eye);
+    const std::uint32_t before = changes.silhouettes[l];
+    std::uint32_t now = 0;
+    for (std::uint32_t e = 0; e < kWidth; ++e) {
+      const std::uint32_t differ = ((front >> (leaf.sides[e] & 15)) ^ (front >> (leaf.sides[e] >> 4))) & 1u;
+      const std::uint32_t was = before >> e & 1u;
+      const std::uint32_t slot = static_cast<std::uint32_t>(kWidth) * l + e;
+      changes.added[added] = slot;
+      added += differ & ~was;
+      changes.removed[removed] = slot;
+      removed += was & ~differ;
+      now |= differ << e;
+    }
+    changes.silhouettes[l] = static_cast<std::uint16_t>(now);
+    changes.safe[i] = safe_way(leaf.planes, eye, heading);
+  }
+  changes.added_count = added;
+  changes.removed_count = removed;
+}
+
+std::size_t find_due(const float* ways, std::size_t count, float way, std::uint32_t* indices) {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    indices[found] = static_cast<std::uint32_t>(i);
+    found += ways[i] <= way ? 1u : 0u;
+  }
+  return found;
+}
+
 }  // namespace
 
-const Kernels kScalarKernels = {sweep_groups, sweep_leaves, sweep_blocks, sweep_exact_blocks};
+const Kernels kScalarKernels = {sweep_groups, sweep_leaves, sweep_blocks, sweep_exact_blocks, update_leaves, find_due};
 
 }  // namespace limn::simd

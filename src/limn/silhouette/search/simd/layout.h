@@ -73,6 +73,30 @@ struct EyeWords {
   ExactFacing exact;
 };
 
+/// Where the eye goes from here: within a cone about a direction, or anywhere (direction 0). Planes' values are those
+/// of the EyeWords that come with it.
+struct Heading {
+  std::int16_t x, y, z;  ///< the direction, times kHeadingWord, rounded
+  float along;           ///< what a plane's product with the direction adds to its value, a unit of way
+  float drift;           ///< what roundings and the width of the cone may add, a unit of way; above 0
+};
+
+inline constexpr int kHeadingWord = 16383;
+
+/// What became of leaves: their silhouettes kept up to date, and what changed.
+struct LeafChanges {
+  std::uint16_t* silhouettes;   ///< of all leaves: a bit for each edge; read and written
+  const std::uint32_t* places;  ///< 16 numbers of each leaf, fetched ahead for who comes next
+  std::uint32_t* added;         ///< slots, 16 * leaf + edge, in order
+  std::uint32_t* removed;
+  float* safe;  ///< for each leaf looked at, how long a way its faces surely keep their sides for; 0 or more
+  /// If not null: which of the leaves need the exact test, and for which faces. They are left as they are, and what the
+  /// test reads is fetched meanwhile.
+  std::uint32_t* unsure;
+  std::uint32_t* unsure_faces;
+  std::size_t added_count, removed_count, unsure_count;  ///< what was written; 0 before
+};
+
 /// Output arrays must have room for 16 more numbers than are written.
 struct Kernels {
   /// Numbers of the children (16 * group + lane) that may hold a silhouette, in order. \param groups null: 0 … count-1
@@ -88,6 +112,11 @@ struct Kernels {
   /// The same with exact planes.
   std::size_t (*sweep_exact_blocks)(const Block* blocks, std::size_t count, const ExactGroup* planes,
                                     const EdgeSides* sides, const EyeWords& eye, std::uint32_t* slots);
+  /// Looks at leaves again. \param leaves each at most once
+  void (*update_leaves)(const Leaf* nodes, const std::uint32_t* leaf_faces, const std::uint32_t* leaves,
+                        std::size_t count, const EyeWords& eye, const Heading& heading, LeafChanges& changes);
+  /// Indices of the numbers that are at most `way`, in order. Reads up to 15 numbers past the last.
+  std::size_t (*find_due)(const float* ways, std::size_t count, float way, std::uint32_t* indices);
 };
 
 extern const Kernels kScalarKernels;
