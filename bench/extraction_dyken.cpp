@@ -88,9 +88,11 @@ class Contestants {
     const QuantizedFrame frame = quantized_frame(mesh, planes);
     exact_ = EdgeBlocks(block_clusters(mesh, topology), planes, frame, EdgeBlocks::Planes::kExact);
     const auto start = Clock::now();
-    tree_ = SearchTree(leaf_clusters(mesh, topology, planes), planes, frame);
+    own_tree_ = SearchTree(leaf_clusters(mesh, topology, planes), planes, frame);
     build_s = 1e-6 * microseconds_since(start);
     automatic_ = std::make_unique<SilhouetteExtractor>(mesh, topology, planes);
+    // One tree for all, where the automatic choice keeps one: two would push each other out of the cache.
+    if (automatic_->tree().leaf_count() != 0) own_tree_ = {};
     all.push_back({"plain loop", [this, &topology, planes](const Eye& eye) {
                      extract_silhouette_brute(topology, planes, eye, plain_found_);
                      return std::span<const EdgeId>(plain_found_);
@@ -111,14 +113,14 @@ class Contestants {
                      },
                      turns});
       all.push_back({"flat " + simd,
-                     [this, level](const Eye& eye) { return tree_.find_flat(eye, scratch_, nullptr, level); }, turns});
-      all.push_back(
-          {"tree " + simd, [this, level](const Eye& eye) { return tree_.find(eye, scratch_, nullptr, level); }, turns});
+                     [this, level](const Eye& eye) { return tree().find_flat(eye, scratch_, nullptr, level); }, turns});
+      all.push_back({"tree " + simd,
+                     [this, level](const Eye& eye) { return tree().find(eye, scratch_, nullptr, level); }, turns});
     }
     all.push_back({"auto", [this](const Eye& eye) { return automatic_->find(eye, scratch_); }, repeats});
   }
 
-  const SearchTree& tree() const { return tree_; }
+  const SearchTree& tree() const { return own_tree_.leaf_count() != 0 ? own_tree_ : automatic_->tree(); }
   const EdgeBlocks& blocks() const { return automatic_->blocks(); }
   const EdgeBlocks& exact() const { return exact_; }
 
@@ -127,7 +129,7 @@ class Contestants {
 
  private:
   EdgeBlocks exact_;
-  SearchTree tree_;
+  SearchTree own_tree_;
   std::unique_ptr<SilhouetteExtractor> automatic_;
   SearchScratch scratch_;
   std::vector<EdgeId> found_, plain_found_;
