@@ -131,11 +131,17 @@ nlohmann::ordered_json to_json(const ExtractionRow& row) {
 
 Plot time_plot(const std::vector<ExtractionRow>& rows) {
   Plot plot{"Silhouettes of the asteroid", "faces", "µs a view", true, true, {}};
-  const std::pair<std::string, std::string> lines[] = {
-      {"vtkPolyDataSilhouette", "#b2182b"}, {"plain loop", "#ef8a62"},      {best_name("brute, floats"), "#999999"},
-      {best_name("brute"), "#4d4d4d"},      {best_name("tree"), "#2166ac"}, {"gpu scan, read back", "#762a83"}};
-  for (const auto& [name, color] : lines) {
-    Series series{name, color, false, {}, {}};
+  struct Line {
+    std::string contestant, label, color;
+  };
+  const Line lines[] = {{"vtkPolyDataSilhouette", "VTK", "#b2182b"},
+                        {"plain loop", "plain loop", "#ef8a62"},
+                        {best_name("brute, floats"), "brute, floats", "#999999"},
+                        {best_name("brute"), "brute", "#4d4d4d"},
+                        {best_name("tree"), "tree", "#2166ac"},
+                        {"gpu scan, read back", "GPU", "#762a83"}};
+  for (const auto& [name, label, color] : lines) {
+    Series series{label, color, false, {}, {}};
     for (const ExtractionRow& row : rows) {
       const std::optional<double> median = row.median_us(name);
       if (row.name != "asteroid" || !median) continue;

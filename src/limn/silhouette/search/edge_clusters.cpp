@@ -347,9 +347,10 @@ ClusterPlace place_of(const LeafCluster& cluster, const Mesh& mesh, std::span<co
   normal /= count;
   const DVec3 at = (sum / count - middle) * per_size;
   ClusterPlace place{};
-  for (int k = 0; k < 3; ++k) {
-    place.at[static_cast<std::size_t>(k)] = static_cast<float>(normal[k]);
-    place.at[static_cast<std::size_t>(3 + k)] = static_cast<float>(at[k]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int axis = static_cast<int>(k);
+    place.at[k] = static_cast<float>(normal[axis]);
+    place.at[3 + k] = static_cast<float>(at[axis]);
   }
   return place;
 }
