@@ -57,6 +57,21 @@ class EveryMethod {
     return wrong_;
   }
 
+  /// The same of the eye that moves, for a few small steps on from there.
+  std::size_t mismatches_on_the_way(Eye eye, Random& random) {
+    wrong_ = 0;
+    const float step = 0.004f * glm::length(eye.at);
+    for (int i = 0; i < 3; ++i) {
+      eye.at += step * random.direction();
+      extract_silhouette_brute(topology_, planes_, eye, oracle_);
+      check(moving_.find(eye));
+      followed_ += moving_.counters().searched ? 0u : 1u;
+    }
+    return wrong_;
+  }
+  /// Steps that the moving eye answered without the tree.
+  std::size_t followed() const { return followed_; }
+
  private:
   void check(std::span<const EdgeId> edges) {
     std::vector<EdgeId> sorted(edges.begin(), edges.end());
@@ -74,22 +89,27 @@ class EveryMethod {
   SearchScratch scratch_;
   std::vector<EdgeId> oracle_, found_;
   std::size_t wrong_ = 0;
+  std::size_t followed_ = 0;
 };
 
 TEST_F(Agreement, OfEveryMethodInTenThousandViews) {
   std::vector<StableMesh> meshes = awkward_meshes();
   for (const ShapeInfo& shape : shapes())
     meshes.push_back({std::string(shape.name), *make_shape(shape.shape, {.faces = 1000})});
-  std::size_t views = 0, wrong = 0;
+  std::size_t views = 0, wrong = 0, followed = 0;
+  Random random(5);
   for (const StableMesh& stable : meshes) {
     EveryMethod methods(*context_, stable.mesh);
     for (const Eye& eye : awkward_eyes(stable.mesh, 200, 77)) {
       wrong += methods.mismatches(eye);
+      wrong += methods.mismatches_on_the_way(eye, random);
       ++views;
     }
+    followed += methods.followed();
   }
   EXPECT_EQ(wrong, 0u);
   EXPECT_GE(views, 10'000u);
+  EXPECT_GE(followed, 10'000u);
   RecordProperty("views", static_cast<int>(views));
 }
 

@@ -55,7 +55,7 @@ TEST(SearchTreeFile, RefusesEveryDamagedByteAndEveryLength) {
   const auto file = FileBytes::open(path);
   ASSERT_TRUE(file);
   const std::vector<std::byte> whole(file->bytes().begin(), file->bytes().end());
-  for (std::size_t i = 0; i < whole.size(); i += 7) {
+  for (std::size_t i = 0; i < whole.size(); ++i) {
     std::vector<std::byte> damaged = whole;
     damaged[i] ^= std::byte{0x10};
     put(path, damaged);
@@ -63,6 +63,25 @@ TEST(SearchTreeFile, RefusesEveryDamagedByteAndEveryLength) {
     put(path, std::span(whole).first(i));
     EXPECT_FALSE(load_search_tree(path, built.topology, built.planes)) << i;
   }
+}
+
+TEST(SearchTreeFile, IsHeldAgainstTheMeshNotOnlyItsHash) {
+  // Anybody can compute the hash: what it covers must be right as well.
+  const TempFolder folder;
+  const Mesh mesh = *make_shape(Shape::kTorus, {.faces = 500});
+  const Built built(mesh);
+  std::vector<LeafCluster> clusters = leaf_clusters(mesh, built.topology, built.planes);
+  std::swap(clusters.front().edges[0], clusters.back().edges[0]);
+  const SearchTree wrong(clusters, built.planes, quantized_frame(mesh, built.planes));
+  ASSERT_TRUE(save_search_tree(wrong, built.topology, folder.path() / "tree"));  // with a hash that is right
+  const Result<SearchTree> loaded = load_search_tree(folder.path() / "tree", built.topology, built.planes);
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().code, ErrorCode::kUnreadable);
+  clusters = leaf_clusters(mesh, built.topology, built.planes);
+  clusters.pop_back();  // edges are missing
+  const SearchTree less(clusters, built.planes, quantized_frame(mesh, built.planes));
+  ASSERT_TRUE(save_search_tree(less, built.topology, folder.path() / "tree"));
+  EXPECT_FALSE(load_search_tree(folder.path() / "tree", built.topology, built.planes));
 }
 
 TEST(SearchTreeFile, RefusesAnotherMesh) {

@@ -6,7 +6,7 @@ namespace limn {
 namespace {
 
 /// Above this share of leaves entered brute force is faster: it reads each edge in a third of the bytes that a leaf
-/// takes. By then the nodes have cost a twentieth of brute force (docs/search-tree.md).
+/// takes. By then the nodes have cost a tenth of brute force (docs/search-tree.md).
 constexpr double kSparse = 0.6;
 /// Below this many leaves (about 1,500 faces) all is done before the nodes have paid.
 constexpr std::size_t kFewLeaves = 150;

@@ -29,7 +29,7 @@ class EdgeBlocks {
 
   /// Every silhouette edge once: the set of extract_silhouette_brute(), in the blocks' order.
   /// \param edges  overwritten. Same order for any level and number of threads.
-  /// Cost: 8 bytes (exact: 14) of memory traffic an edge, and what it finds; uses threads on large meshes.
+  /// Cost: 9 bytes (exact: 15) of memory traffic an edge, and what it finds; uses threads on large meshes.
   void extract(const Eye& eye, std::vector<EdgeId>& edges, SimdLevel level = best_simd_level()) const;
 
   std::size_t edge_count() const { return edge_count_; }

@@ -29,7 +29,7 @@ struct SearchScratch {
 /// way. Sander et al. 2000, section 5, as one would build it today (docs/search-tree.md).
 ///
 /// A node bounds its faces' planes by a ball of normals about a quantized one, and an interval of offsets at an anchor
-/// point: n·p + d is a·(p - c) + e give or take r |p - c| + h. Sixteen nodes are tested by four multiply-adds of 16-bit
+/// point: n·p + d is a·(p - c) + e give or take r |p - c| + h. Sixteen nodes are tested by six multiply-adds of 16-bit
 /// pairs. Everything the tree decides is decided in integers, alike on every machine; bounds hold the roundings of the
 /// float test, so the edges found are exactly those of extract_silhouette_brute().
 class SearchTree {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ constexpr std::uint32_t kVersion = 1;
 struct Header {
   std::array<char, 8> magic = kMagic;
   std::uint32_t version = kVersion;
-  std::uint32_t levels = 0;
+  std::uint32_t reserved = 0;
   std::uint64_t leaves = 0;
   std::uint64_t edges = 0;
   std::uint64_t mesh_hash = 0;     ///< of the planes and edges the tree was built over
@@ -72,23 +73,8 @@ std::uint64_t mesh_hash(const Topology& topology, std::span<const Plane> planes)
   return hash.value();
 }
 
-/// Group counts of the levels over that many leaves, lowest first.
-std::vector<std::size_t> level_sizes(std::size_t leaves) {
-  std::vector<std::size_t> sizes;
-  for (std::size_t count = leaves; leaves != 0;) {
-    count = (count + simd::kWidth - 1) / simd::kWidth;
-    sizes.push_back(count);
-    if (count == 1) break;
-  }
-  return sizes;
-}
-
-std::size_t payload_size(std::size_t leaves) {
-  std::size_t size = leaves * (sizeof(simd::Leaf) + simd::kWidth * sizeof(FaceId));
-  for (const std::size_t groups : level_sizes(leaves))
-    size += groups * sizeof(simd::NodeGroup);
-  return size;
-}
+/// What a leaf is stored as: its faces, its edges, and their sides. Planes and bounds are made anew.
+constexpr std::size_t kLeafSize = simd::kWidth * (sizeof(FaceId) + sizeof(EdgeId) + 1);
 
 template <class Container>
 void append(std::vector<std::byte>& bytes, const Container& values) {
@@ -97,12 +83,27 @@ void append(std::vector<std::byte>& bytes, const Container& values) {
 }
 
 /// Takes values off the front. \pre enough bytes
-template <class Container>
-void take(std::span<const std::byte>& bytes, std::size_t count, Container& values) {
+template <class Value, std::size_t Count>
+void take(std::span<const std::byte>& bytes, Value (&values)[Count]) {
+  std::memcpy(values, bytes.data(), sizeof(values));
+  bytes = bytes.subspan(sizeof(values));
+}
+
+void take(std::span<const std::byte>& bytes, std::size_t count, std::vector<FaceId>& values) {
   values.resize(count);
-  const std::size_t size = count * sizeof(typename Container::value_type);
-  if (size != 0) std::memcpy(values.data(), bytes.data(), size);
-  bytes = bytes.subspan(size);
+  if (count != 0) std::memcpy(values.data(), bytes.data(), count * sizeof(FaceId));
+  bytes = bytes.subspan(count * sizeof(FaceId));
+}
+
+/// Whether the frame is one that these planes may be quantized in (quantized.h).
+bool holds(const QuantizedFrame& frame, std::span<const Plane> planes) {
+  if (!(frame.scale > 0.0) || !std::isfinite(frame.scale) || !std::isfinite(frame.magnitude)) return false;
+  if (!std::isfinite(frame.origin.x + frame.origin.y + frame.origin.z)) return false;
+  return std::all_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+    const double d = plane.d;
+    const double at_origin = plane.nx * frame.origin.x + plane.ny * frame.origin.y + plane.nz * frame.origin.z + d;
+    return std::abs(at_origin) <= frame.scale && std::abs(d) <= frame.magnitude;
+  });
 }
 
 }  // namespace
@@ -112,44 +113,64 @@ class SearchTreeFile {
  public:
   static std::vector<std::byte> bytes_of(const SearchTree& tree, const Topology& topology) {
     Header header;
-    header.levels = static_cast<std::uint32_t>(tree.levels_.size());
     header.leaves = tree.leaves_.size();
     header.edges = tree.edge_count_;
     header.mesh_hash = mesh_hash(topology, tree.planes_);
     const QuantizedFrame& frame = tree.frame_;
     header.frame = {frame.origin.x, frame.origin.y, frame.origin.z, frame.scale, frame.magnitude};
     std::vector<std::byte> bytes(sizeof(Header));
-    bytes.reserve(sizeof(Header) + payload_size(tree.leaves_.size()));
-    append(bytes, tree.leaves_);
+    bytes.reserve(sizeof(Header) + kLeafSize * tree.leaves_.size());
     append(bytes, tree.leaf_faces_);
-    for (const auto& level : tree.levels_)
-      append(bytes, level);
+    for (const simd::Leaf& leaf : tree.leaves_)
+      append(bytes, leaf.edges);
+    for (const simd::Leaf& leaf : tree.leaves_)
+      append(bytes, leaf.sides);
     std::memcpy(bytes.data(), &header, sizeof(Header));
     header.payload_hash = hash_of(std::span(bytes).subspan(kHashed));
     std::memcpy(bytes.data(), &header, sizeof(Header));
     return bytes;
   }
 
-  static SearchTree tree_of(const Header& header, std::span<const std::byte> payload, std::span<const Plane> planes) {
+  /// The leaves as stored; planes and bounds are not there yet. \pre the payload has them all
+  static SearchTree leaves_of(const Header& header, std::span<const std::byte> payload) {
     SearchTree tree;
-    tree.planes_ = planes;
-    tree.frame_ = {DVec3(header.frame[0], header.frame[1], header.frame[2]), header.frame[3], header.frame[4]};
     tree.edge_count_ = header.edges;
-    take(payload, header.leaves, tree.leaves_);
     take(payload, simd::kWidth * header.leaves, tree.leaf_faces_);
-    for (const std::size_t groups : level_sizes(header.leaves))
-      take(payload, groups, tree.levels_.emplace_back());
+    tree.leaves_.resize(header.leaves, simd::Leaf{});
+    for (simd::Leaf& leaf : tree.leaves_)
+      take(payload, leaf.edges);
+    for (simd::Leaf& leaf : tree.leaves_)
+      take(payload, leaf.sides);
     return tree;
   }
 
-  /// Whether every number in the tree is one of the mesh's. The hash speaks for the rest.
-  static bool refers_within(const SearchTree& tree, const Topology& topology) {
-    const bool faces = std::all_of(tree.leaf_faces_.begin(), tree.leaf_faces_.end(),
-                                   [&](FaceId face) { return face < topology.face_count(); });
-    return faces && std::all_of(tree.leaves_.begin(), tree.leaves_.end(), [&](const simd::Leaf& leaf) {
-             return std::all_of(std::begin(leaf.edges), std::end(leaf.edges),
-                                [&](EdgeId edge) { return edge < topology.edge_count(); });
-           });
+  /// Whether the leaves hold every edge with two faces once, each with its own faces, whoever wrote them.
+  static bool are_leaves_of(const SearchTree& tree, const Topology& topology) {
+    std::vector<std::uint8_t> met(topology.edge_count(), 0);
+    std::size_t count = 0;
+    for (const FaceId face : tree.leaf_faces_) {
+      if (face >= topology.face_count()) return false;
+    }
+    for (std::size_t l = 0; l < tree.leaves_.size(); ++l) {
+      const FaceId* faces = tree.leaf_faces_.data() + simd::kWidth * l;
+      for (std::size_t i = 0; i < simd::kWidth; ++i) {
+        const std::uint8_t sides = tree.leaves_[l].sides[i];
+        if ((sides & 15) == sides >> 4) continue;  // unused: it finds nothing
+        const EdgeId edge = tree.leaves_[l].edges[i];
+        if (edge >= topology.edge_count() || met[edge] != 0 || !is_searched(topology.edge_class[edge])) return false;
+        const Edge& ends = topology.edges[edge];
+        if (faces[sides & 15] != ends.face[0] || faces[sides >> 4] != ends.face[1]) return false;
+        met[edge] = 1;
+        ++count;
+      }
+    }
+    const auto searched = std::count_if(topology.edge_class.begin(), topology.edge_class.end(), is_searched);
+    return count == static_cast<std::size_t>(searched) && count == tree.edge_count_;
+  }
+
+ private:
+  static bool is_searched(EdgeClass edge_class) {
+    return edge_class == EdgeClass::kManifold || edge_class == EdgeClass::kInconsistent;
   }
 };
 
@@ -179,11 +200,15 @@ Result<SearchTree> load_search_tree(const std::filesystem::path& path, const Top
     return fail_at(ErrorCode::kUnsuitable, path.string(), {}, "the search tree belongs to another mesh",
                    "build a tree for this one");
   }
-  if (payload.size() != payload_size(header.leaves) || header.levels != level_sizes(header.leaves).size())
+  if (header.reserved != 0 || payload.size() != kLeafSize * header.leaves)
     return unreadable(fmt::format("byte {}", bytes.size()), "the search tree is cut off or has bytes to spare");
   if (header.payload_hash != hash_of(bytes.subspan(kHashed))) return unreadable({}, "the search tree is damaged");
-  SearchTree tree = SearchTreeFile::tree_of(header, payload, planes);
-  if (!SearchTreeFile::refers_within(tree, topology)) return unreadable({}, "the search tree is damaged");
+  const QuantizedFrame frame{DVec3(header.frame[0], header.frame[1], header.frame[2]), header.frame[3],
+                             header.frame[4]};
+  SearchTree tree = SearchTreeFile::leaves_of(header, payload);
+  if (!holds(frame, planes) || !SearchTreeFile::are_leaves_of(tree, topology))
+    return unreadable({}, "the search tree is damaged");
+  tree.refit(planes, frame);
   return tree;
 }
 

@@ -17,9 +17,10 @@ Result<void> save_search_tree(const SearchTree& tree, const Topology& topology, 
 /// order.
 ///
 /// \param planes  from face_planes() of the mesh; kept, not copied: they must outlive the tree
-/// Cost: one pass over the file and one over the mesh; a twentieth of building it.
+/// Cost: a pass over the file, a few over the mesh, and SearchTree::refit: about half of building it.
 /// Errors: kUnreadable when the file is missing, cut off, damaged, of another version, or of another kind;
-/// kUnsuitable when it belongs to another mesh. Never a tree that would find something else.
+/// kUnsuitable when it belongs to another mesh. Never a tree that would find something else,
+/// whoever wrote the file: its leaves are held against the mesh, its bounds are made anew.
 Result<SearchTree> load_search_tree(const std::filesystem::path& path, const Topology& topology,
                                     std::span<const Plane> planes);
 
