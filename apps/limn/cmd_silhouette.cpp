@@ -26,6 +26,7 @@ struct Drawing {
   std::string bytes;
   FoundLines found;
   std::size_t lines = 0;     ///< strokes on the page, polylines in space, or edges listed
+  std::size_t drawable = 0;  ///< polylines in space that a page was laid out of
   std::optional<Page> page;  ///< without its points and strokes
 };
 
@@ -57,6 +58,7 @@ Result<void> draw_page(const SilhouetteFlags& flags, const Polylines& lines, con
   Result<Page> page = lay_out(lines, camera, flags.page());
   if (!page) return tl::unexpected(about(page.error(), flags.input.path));
   drawing.lines = page->strokes.size();
+  drawing.drawable = lines.lines.size();
   if (flags.written_as() == DrawingFormat::kDxf) {
     drawing.bytes = dxf_text(*page);
   } else {
@@ -68,6 +70,14 @@ Result<void> draw_page(const SilhouetteFlags& flags, const Polylines& lines, con
   }
   drawing.page = Page{page->width_mm, page->height_mm, page->mm_per_unit, {}, {}};
   return {};
+}
+
+/// Why there is nothing on the page or in the file.
+std::string why_nothing(const Drawing& drawing) {
+  // A perspective from farther than doubles resolve draws the whole model as a point.
+  if (drawing.page && drawing.drawable != 0)
+    return "nothing to draw: what is seen from there is smaller than 0.002 mm on the page, or off it";
+  return "nothing to draw: no line of the kinds asked for is seen from there";
 }
 
 /// Whether an edge is asked for: all of it need not be.
@@ -113,7 +123,7 @@ Result<Drawing> draw(const SilhouetteFlags& flags, const Mesh& mesh, const Camer
 
 std::string summary(const SilhouetteFlags& flags, const Drawing& drawing, double time_ms) {
   std::string text = flags.output + ": ";
-  if (drawing.lines == 0) return text + "nothing to draw: no line of the kinds asked for is seen from there";
+  if (drawing.lines == 0) return text + why_nothing(drawing);
   const bool listed = flags.written_as() == DrawingFormat::kJson;
   text += counted(drawing.lines, drawing.page ? "stroke" : listed ? "edge" : "polyline");
   if (drawing.page) text += fmt::format(", {:.0f}x{:.0f} mm", drawing.page->width_mm, drawing.page->height_mm);

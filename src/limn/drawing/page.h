@@ -56,7 +56,8 @@ struct Page {
 /// the line of sight, up or across; the far plane cuts nothing, and orthographic lines are not cut at depth. Then, with
 /// distances held against options.tolerance_mm:
 /// - points that fall together become one; strokes shorter than the tolerance vanish
-/// - of strokes that lie on one another, in whole or in part, that of the lower layer stays (then the earlier one)
+/// - of strokes that lie on one another over all of the stretch they share, that of the lower layer stays there (then
+///   the earlier one)
 /// - ends of a layer that meet where nothing else of it does are joined; through a branching point a line goes on as it
 ///   did in `lines`
 /// - points between which a stroke is straight are left out
