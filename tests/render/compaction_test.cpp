@@ -11,6 +11,8 @@
 #include "limn/gl/compute.h"
 #include "limn/gl/objects.h"
 
+#include "render/drawing_test.h"
+
 namespace limn {
 namespace {
 
@@ -52,15 +54,8 @@ std::vector<std::uint32_t> read(unsigned buffer, std::size_t count) {
   return values;
 }
 
-class CompactionTest : public testing::Test {
+class CompactionTest : public test::DrawingTest {
  protected:
-  void SetUp() override {
-    auto made = gl::Context::create();
-    ASSERT_TRUE(made) << format_error(made.error());
-    context_ = std::move(*made);
-  }
-  void TearDown() override { EXPECT_EQ(context_->severe_messages(), 0) << context_->last_severe_message(); }
-
   Compactor make(const CompactorOptions& options) {
     auto made = Compactor::create(*context_, options);
     EXPECT_TRUE(made) << format_error(made.error());
@@ -72,8 +67,6 @@ class CompactionTest : public testing::Test {
     compactor.run(buffer.id());
     EXPECT_TRUE(compactor.read_entries() == expand(counts).entries) << what << ", " << counts.size() << " elements";
   }
-
-  std::unique_ptr<gl::Context> context_;
 };
 
 TEST_F(CompactionTest, FindsTheSameAsALoopAtSizesAroundPowersOfFourAndWorkgroups) {

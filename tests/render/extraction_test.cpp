@@ -12,6 +12,7 @@
 #include "limn/mesh/shapes.h"
 #include "limn/silhouette/brute.h"
 
+#include "render/drawing_test.h"
 #include "support/stable.h"
 #include "support/temp_folder.h"
 
@@ -91,15 +92,8 @@ double largest_difference(std::span<const float> a, std::span<const float> b) {
   return largest;
 }
 
-class ExtractionTest : public testing::Test {
+class ExtractionTest : public test::DrawingTest {
  protected:
-  void SetUp() override {
-    auto made = gl::Context::create();
-    ASSERT_TRUE(made) << format_error(made.error());
-    context_ = std::move(*made);
-  }
-  void TearDown() override { EXPECT_EQ(context_->severe_messages(), 0) << context_->last_severe_message(); }
-
   SceneExtractor make(std::span<const Model> models, const SceneExtractorOptions& options = {}) {
     std::vector<SceneObject> objects;
     for (const Model& model : models)
@@ -137,8 +131,6 @@ class ExtractionTest : public testing::Test {
     EXPECT_TRUE(extractor.read_facing() == expected)
         << model[0].name << " from " << eye[0].at.x << " " << eye[0].at.y << " " << eye[0].at.z;
   }
-
-  std::unique_ptr<gl::Context> context_;
 };
 
 TEST_F(ExtractionTest, EachAwkwardMeshGivesTheSetOfBruteForceFromManyEyes) {
