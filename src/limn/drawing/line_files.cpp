@@ -15,6 +15,7 @@ namespace limn {
 namespace {
 
 using formats::append_number;
+using formats::append_position;
 
 static_assert(std::endian::native == std::endian::little, "binary PLY is written as it lies in memory");
 
@@ -106,12 +107,7 @@ void append_bytes(std::string& text, const T& value) {
 
 void append_ascii(std::string& text, const Vertices& vertices, const std::vector<PlyEdge>& edges) {
   for (const Vec3& p : vertices.positions) {
-    append_number(text, p.x);
-    text += ' ';
-    append_number(text, p.y);
-    text += ' ';
-    append_number(text, p.z);
-    text += '\n';
+    append_position(text, p);
   }
   for (const PlyEdge& edge : edges) {
     text +=
@@ -143,12 +139,7 @@ std::string obj_text(const Polylines& lines) {
   text.reserve(text.size() + 40 * vertices.positions.size() + 9 * lines.points.size());
   for (const Vec3& p : vertices.positions) {
     text += "v ";
-    append_number(text, p.x);
-    text += ' ';
-    append_number(text, p.y);
-    text += ' ';
-    append_number(text, p.z);
-    text += '\n';
+    append_position(text, p);
   }
   for (std::size_t number = 0; number < kLayerCount; ++number) {
     bool begun = false;

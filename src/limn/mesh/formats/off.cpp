@@ -258,12 +258,7 @@ Result<std::vector<OutputFile>> write_off(const Mesh& mesh, const std::filesyste
   std::string text = fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), mesh.faces.size());
   text.reserve((mesh.positions.size() + mesh.faces.size()) * kTypicalLine);
   for (const Vec3& p : mesh.positions) {
-    append_number(text, p.x);
-    text += ' ';
-    append_number(text, p.y);
-    text += ' ';
-    append_number(text, p.z);
-    text += '\n';
+    append_position(text, p);
   }
   for (const Triangle& face : mesh.faces) {
     text += '3';

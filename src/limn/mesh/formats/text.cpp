@@ -12,4 +12,13 @@ void append_number(std::string& text, std::uint64_t value) {
   text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
+void append_position(std::string& text, const Vec3& position) {
+  append_number(text, position.x);
+  text += ' ';
+  append_number(text, position.y);
+  text += ' ';
+  append_number(text, position.z);
+  text += '\n';
+}
+
 }  // namespace limn::formats

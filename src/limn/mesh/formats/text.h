@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "limn/base/vec.h"
 #include "limn/mesh/formats/parse_number.h"
 
 /// Reading and writing numbers as text, correctly rounded and independent of the locale.
@@ -125,5 +126,8 @@ inline std::string in_quotes(std::string_view token) {
 /// Appends the shortest digits that read back as the same float.
 void append_number(std::string& text, float value);
 void append_number(std::string& text, std::uint64_t value);
+
+/// Appends "x y z" and a line's end.
+void append_position(std::string& text, const Vec3& position);
 
 }  // namespace limn::formats

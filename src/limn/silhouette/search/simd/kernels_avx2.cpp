@@ -5,22 +5,15 @@
 
 #include <immintrin.h>
 
+#include "limn/silhouette/search/simd/kernels_x86.h"
 #include "limn/silhouette/search/simd/layout.h"
 
 namespace limn::simd {
 namespace {
 
-/// How many records ahead are fetched: far enough to cover the latency of the last cache level.
-constexpr std::size_t kAhead = 8;
-
 /// Two 16-bit numbers in every 32-bit lane.
 inline __m256i pairs(int low, int high) {
   return _mm256_set1_epi32((low & 0xffff) | static_cast<int>(static_cast<unsigned>(high) << 16));
-}
-
-inline void prefetch(const void* record, int lines) {
-  for (int i = 0; i < lines; ++i)
-    _mm_prefetch(static_cast<const char*>(record) + 64 * i, _MM_HINT_T0);
 }
 
 inline __m256i load(const void* words) {
@@ -46,15 +39,6 @@ inline __m128i to_bytes(__m256i low, __m256i high) {
 
 inline std::uint32_t to_mask(__m256i low, __m256i high) {
   return static_cast<std::uint32_t>(_mm_movemask_epi8(to_bytes(low, high)));
-}
-
-inline int reach_of(const NodeGroup& group, const EyeWords& eye) {
-  if (eye.orthographic) return eye.reach;
-  const float x = eye.v[0] - eye.scale * group.center[0];
-  const float y = eye.v[1] - eye.scale * group.center[1];
-  const float z = eye.v[2] - eye.scale * group.center[2];
-  const float length = _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x * x + y * y + z * z)));
-  return static_cast<int>(length + eye.scale * group.radius) + 1;
 }
 
 /// For each mask of 8 lanes the numbers of its set lanes, first ones first.
