@@ -1,26 +1,23 @@
 #version 450 core
-// A lit face, with thin lines along its edges when WIREFRAME is defined.
+// The one stage that lights surfaces, whatever placed their vertices (surface_vertex.glsl); with thin lines along the edges
+// when WIREFRAME is defined.
 
+#include "camera_block.glsl"
 #include "light.glsl"
+#include "material_table.glsl"
+#include "normal_map.glsl"
 
 layout(location = 0) in vec3 at;
 layout(location = 1) in vec3 shading_normal;
 layout(location = 2) in vec2 texture_uv;
 layout(location = 3) in vec4 tint;
+layout(location = 4) flat in uint material;
 #ifdef WIREFRAME
-layout(location = 4) in vec3 barycentric;
+layout(location = 5) in vec3 barycentric;
 #endif
 
-layout(binding = 0) uniform sampler2D base_texture;
-
-uniform bool flat_normals;
-uniform bool textured;
-uniform bool orthographic;
+uniform bool flat_normals;  // the faces' own, whatever the vertices say
 uniform bool draw_faces;
-uniform vec3 base_color;
-uniform float metallic;
-uniform float roughness;
-uniform vec3 world_up;  // in eye space
 
 layout(location = 0) out vec4 color;
 
@@ -52,16 +49,19 @@ float wire_coverage() {
 #endif
 
 void main() {
+  Material m = materials[material];
   vec3 to_eye = orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-at);
   vec3 n = face_normal(to_eye);
+  float front = gl_FrontFacing ? 1.0 : -1.0;
   float size = length(shading_normal);
   if (!flat_normals && size > 0.0) {
     vec3 smooth_normal = shading_normal / size;
-    n = dot(smooth_normal, n) < 0.0 ? -smooth_normal : smooth_normal;
+    front = dot(smooth_normal, n) < 0.0 ? -1.0 : 1.0;
+    n = front * smooth_normal;
   }
-  vec3 base = base_color * tint.rgb;
-  if (textured) base *= texture(base_texture, texture_uv).rgb;
-  vec3 lit = shade(n, to_eye, base, metallic, roughness, world_up);
+  if (m.normal_layer >= 0) n = turn_normal(n, front, mapped_normal(m, texture_uv), at, texture_uv);
+  vec3 base = base_color_of(m, texture_uv) * tint.rgb;
+  vec3 lit = shade(n, to_eye, base, m.metallic, m.roughness, world_up);
 #ifdef WIREFRAME
   float wire = wire_coverage();
   if (draw_faces) {

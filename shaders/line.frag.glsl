@@ -1,6 +1,7 @@
 #version 450 core
 // A segment's pixel: how much of it the line covers, and whether the line's own axis is hidden there.
 
+#include "camera_block.glsl"
 #include "srgb.glsl"
 
 layout(location = 0) flat in vec3 window_a;
@@ -13,10 +14,6 @@ layout(binding = 0) uniform sampler2DMS depth;
 layout(binding = 0) uniform sampler2D depth;
 #endif
 
-uniform vec2 size_px;
-uniform mat4 inverse_projection;
-uniform float pixel_size;  // world units a pixel at distance 1 (perspective), or anywhere (orthographic)
-uniform bool orthographic;
 uniform float half_width_px;
 
 layout(location = 0) out vec4 color;

@@ -2,15 +2,12 @@
 // A segment as a quad on the screen, as wide as asked and a pixel more on every side for its soft rim. Draw 4 vertices
 // (a strip) an instance.
 
+#include "camera_block.glsl"
+
 layout(location = 0) in vec3 a;
 layout(location = 1) in vec3 b;
 layout(location = 2) in vec3 line_color;
 
-uniform mat4 rotation;
-uniform vec3 eye;
-uniform mat4 projection;
-uniform vec2 size_px;
-uniform float near_distance;
 uniform float half_width_px;
 
 layout(location = 0) flat out vec3 window_a;  // pixels, and depth 0 to 1

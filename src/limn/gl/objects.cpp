@@ -83,6 +83,13 @@ Texture make_texture_2d(unsigned format, int width, int height, int samples, int
   return Texture(id);
 }
 
+Texture make_texture_array(unsigned format, const ArraySize& size, int levels) {
+  unsigned id = 0;
+  glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
+  glTextureStorage3D(id, levels, format, size.width, size.height, size.layers);
+  return Texture(id);
+}
+
 void attach_attribute(const VertexArray& array, const Buffer& buffer, const FloatAttribute& attribute) {
   const unsigned location = attribute.location;
   const auto stride = static_cast<GLsizei>(attribute.stride_bytes);
@@ -90,6 +97,14 @@ void attach_attribute(const VertexArray& array, const Buffer& buffer, const Floa
   glVertexArrayAttribFormat(array.id(), location, attribute.components, GL_FLOAT, GL_FALSE, 0);
   glVertexArrayAttribBinding(array.id(), location, location);
   glVertexArrayBindingDivisor(array.id(), location, attribute.per_instance ? 1 : 0);
+  glEnableVertexArrayAttrib(array.id(), location);
+}
+
+void attach_uint_per_instance(const VertexArray& array, const Buffer& buffer, unsigned location) {
+  glVertexArrayVertexBuffer(array.id(), location, buffer.id(), 0, sizeof(GLuint));
+  glVertexArrayAttribIFormat(array.id(), location, 1, GL_UNSIGNED_INT, 0);
+  glVertexArrayAttribBinding(array.id(), location, location);
+  glVertexArrayBindingDivisor(array.id(), location, 1);
   glEnableVertexArrayAttrib(array.id(), location);
 }
 

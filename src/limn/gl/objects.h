@@ -69,6 +69,12 @@ VertexArray make_vertex_array();
 /// \param format  a sized internal format  \param levels  1, or as many as the mip levels wanted
 Texture make_texture_2d(unsigned format, int width, int height, int samples = 1, int levels = 1);
 
+/// An array of two-dimensional textures of one size, without content.
+struct ArraySize {
+  int width, height, layers;
+};
+Texture make_texture_array(unsigned format, const ArraySize& size, int levels);
+
 /// Feeds `components` floats a vertex (or an instance) from a buffer to an attribute.
 struct FloatAttribute {
   unsigned location;
@@ -78,6 +84,9 @@ struct FloatAttribute {
   bool per_instance = false;
 };
 void attach_attribute(const VertexArray& array, const Buffer& buffer, const FloatAttribute& attribute);
+
+/// Feeds one uint an instance (from the draw's base instance on) to an attribute.
+void attach_uint_per_instance(const VertexArray& array, const Buffer& buffer, unsigned location);
 
 /// Whether the device ran out of memory since errors were last asked for; takes back every pending error.
 bool take_out_of_memory();

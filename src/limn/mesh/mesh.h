@@ -32,6 +32,10 @@ struct Material {
   bool double_sided = false;
   std::vector<std::byte> base_color_image;  ///< the encoded file (PNG or JPEG); empty for none
   std::string base_color_image_mime;        ///< "image/png" or "image/jpeg"
+  /// A normal map as in glTF: x towards growing u, y towards the top of the picture, z off the surface.
+  std::vector<std::byte> normal_image;  ///< the encoded file; empty for none
+  std::string normal_image_mime;
+  float normal_scale = 1.0f;  ///< of x and y
 };
 
 /// An indexed triangle mesh as a file gave it: positions in file order, connectivity not yet welded.

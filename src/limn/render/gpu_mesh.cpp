@@ -1,20 +1,27 @@
 #include "limn/render/gpu_mesh.h"
 
 #include <algorithm>
-#include <bit>
 #include <epoxy/gl.h>
-#include <numeric>
-#include <span>
 #include <string>
+#include <vector>
 
 #include "limn/base/parallel.h"
-#include "limn/image/image.h"
 
 namespace limn {
 namespace {
 
 constexpr std::size_t kGrain = 1 << 14;
 constexpr std::size_t kFacesADraw = std::size_t{1} << 28;  // a draw's count of indices is a signed 32-bit number
+constexpr std::size_t kMostFaces = 0xffffffffu / 3;        // and its first index an unsigned one
+
+/// As glMultiDrawElementsIndirect reads it.
+struct DrawCommand {
+  std::uint32_t index_count = 0;
+  std::uint32_t instance_count = 1;
+  std::uint32_t first_index = 0;
+  std::int32_t base_vertex = 0;
+  std::uint32_t base_instance = 0;
+};
 
 template <class T>
 bool by_vertex(const CornerAttribute<T>& attribute) {
@@ -36,10 +43,16 @@ std::vector<T> by_corner(const Mesh& mesh, const CornerAttribute<T>& attribute) 
   return values;
 }
 
+/// A run of faces of one material.
+struct Batch {
+  std::size_t first_face = 0;
+  std::size_t face_count = 0;
+  std::size_t material = 0;
+};
+
 /// Faces by material, each group in order, as the order in which to draw them; empty when they are so already.
-std::vector<FaceId> order_by_material(const Mesh& mesh, std::vector<GpuMesh::Batch>& batches) {
+std::vector<FaceId> order_by_material(const Mesh& mesh, std::vector<Batch>& batches) {
   const std::size_t materials = std::max<std::size_t>(mesh.materials.size(), 1);
-  batches.clear();
   if (mesh.face_materials.empty() || materials == 1) {
     batches.push_back({0, mesh.face_count(), 0});
     return {};
@@ -56,6 +69,28 @@ std::vector<FaceId> order_by_material(const Mesh& mesh, std::vector<GpuMesh::Bat
   for (std::size_t f = 0; f < mesh.face_count(); ++f)
     order[next[mesh.face_materials[f]]++] = static_cast<FaceId>(f);
   return order;
+}
+
+/// The draws of all batches. A batch's material reaches its vertices as an attribute that advances by instance: each
+/// command begins at an instance of its own, so vertices that materials share need not be split.
+struct Commands {
+  std::vector<DrawCommand> draws;
+  std::vector<std::uint32_t> materials;  ///< one a draw
+};
+
+Commands make_commands(std::span<const Batch> batches) {
+  Commands commands;
+  for (const Batch& batch : batches) {
+    for (std::size_t done = 0; done < batch.face_count; done += kFacesADraw) {
+      DrawCommand draw;
+      draw.index_count = static_cast<std::uint32_t>(3 * std::min(kFacesADraw, batch.face_count - done));
+      draw.first_index = static_cast<std::uint32_t>(3 * (batch.first_face + done));
+      draw.base_instance = static_cast<std::uint32_t>(commands.draws.size());
+      commands.draws.push_back(draw);
+      commands.materials.push_back(static_cast<std::uint32_t>(batch.material));
+    }
+  }
+  return commands;
 }
 
 std::vector<Triangle> in_order(std::span<const Triangle> faces, std::span<const FaceId> order) {
@@ -78,29 +113,6 @@ tl::unexpected<Error> out_of_memory(const std::string& what) {
   return fail(ErrorCode::kNoGraphics, "the graphics device has no memory for " + what, "draw a smaller one");
 }
 
-Result<gl::Texture> upload_texture(const Material& material) {
-  const auto image = decode_image(material.base_color_image, "material \"" + material.name + "\"");
-  if (!image) {
-    Error error = image.error();
-    error.code = ErrorCode::kUnsuitable;
-    error.message = "its base colour picture: " + error.message;
-    return tl::unexpected(std::move(error));
-  }
-  GLint largest = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  if (image->width > largest || image->height > largest)
-    return out_of_memory("the picture of material " + material.name);
-  const int levels = std::bit_width(static_cast<unsigned>(std::max(image->width, image->height)));
-  gl::Texture texture = gl::make_texture_2d(GL_SRGB8_ALPHA8, image->width, image->height, 1, levels);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTextureSubImage2D(texture.id(), 0, 0, 0, image->width, image->height, GL_RGBA, GL_UNSIGNED_BYTE,
-                      image->rgba.data());
-  glGenerateTextureMipmap(texture.id());
-  glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glTextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  return texture;
-}
-
 template <class T>
 void attach(const gl::VertexArray& array, gl::Buffer& buffer, std::span<const T> values, unsigned location) {
   buffer = gl::make_buffer_of(values);
@@ -111,6 +123,7 @@ void attach(const gl::VertexArray& array, gl::Buffer& buffer, std::span<const T>
 }  // namespace
 
 Result<GpuMesh> GpuMesh::upload(const Mesh& mesh, std::span<const Vec3> points) {
+  if (mesh.face_count() > kMostFaces) return out_of_memory("a mesh of " + std::to_string(mesh.face_count()) + " faces");
   gl::take_out_of_memory();
   GpuMesh gpu;
   gpu.has_normals_ = !mesh.normals.empty();
@@ -131,32 +144,28 @@ Result<GpuMesh> GpuMesh::upload(const Mesh& mesh, std::span<const Vec3> points) 
     expanded = corners_as_vertices(mesh.face_count());
     faces = expanded;
   }
-  const std::vector<FaceId> order = order_by_material(mesh, gpu.batches_);
+  std::vector<Batch> batches;
+  const std::vector<FaceId> order = order_by_material(mesh, batches);
   if (!order.empty()) {
     ordered = in_order(faces, order);
     faces = ordered;
   }
   gpu.faces_ = gl::make_buffer_of(faces);
   glVertexArrayElementBuffer(gpu.array_.id(), gpu.faces_.id());
-  for (const Material& material : mesh.materials) {
-    gl::Texture& texture = gpu.textures_.emplace_back();
-    if (material.base_color_image.empty() || mesh.uvs.empty()) continue;
-    auto uploaded = upload_texture(material);
-    if (!uploaded) return tl::unexpected(uploaded.error());
-    texture = std::move(*uploaded);
-  }
+  const Commands commands = make_commands(batches);
+  gpu.commands_ = gl::make_buffer_of(std::span<const DrawCommand>(commands.draws));
+  gpu.materials_ = gl::make_buffer_of(std::span<const std::uint32_t>(commands.materials));
+  gpu.command_count_ = static_cast<int>(commands.draws.size());
+  if (gpu.command_count_ > 0) gl::attach_uint_per_instance(gpu.array_, gpu.materials_, 4);
   if (gl::take_out_of_memory()) return out_of_memory("a mesh of " + std::to_string(mesh.face_count()) + " faces");
   return gpu;
 }
 
-void GpuMesh::draw(const Batch& batch) const {
+void GpuMesh::draw() const {
   glBindVertexArray(array_.id());
-  for (std::size_t done = 0; done < batch.face_count; done += kFacesADraw) {
-    const std::size_t count = std::min(kFacesADraw, batch.face_count - done);
-    const std::size_t offset_bytes = (batch.first_face + done) * sizeof(Triangle);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(offset_bytes));
-  }
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
+  glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr, command_count_, 0);
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
 }  // namespace limn

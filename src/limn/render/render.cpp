@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <epoxy/gl.h>
-#include <glm/matrix.hpp>
 #include <new>
 #include <string>
 #include <type_traits>
 
 #include "limn/gl/objects.h"
+#include "limn/render/camera_block.h"
 #include "limn/render/gpu_mesh.h"
+#include "limn/render/materials.h"
 #include "limn/render/targets.h"
 
 namespace limn {
@@ -18,14 +19,6 @@ constexpr int kLargestSide = 16384;
 
 static_assert(sizeof(Segment3) == 9 * sizeof(float) && std::is_standard_layout_v<Segment3>,
               "segments are uploaded as they lie in memory");
-
-/// What a face looks like without a material: clay, so that shape speaks.
-Material clay() {
-  Material material;
-  material.base_color = Vec4(0.60f, 0.55f, 0.47f, 1.0f);
-  material.roughness = 0.38f;
-  return material;
-}
 
 Result<void> check(const RenderOptions& options) {
   const auto outside = [](int side) { return side < 1 || side > kLargestSide; };
@@ -48,57 +41,12 @@ Result<void> check(const RenderOptions& options) {
   return {};
 }
 
-/// The camera as the shaders want it: rotation and eye apart (face.vert.glsl says why).
-struct ShaderCamera {
-  Mat4 rotation, projection;
-  Vec3 eye;
-  float pixel_size;  ///< world units a pixel: at distance 1, or anywhere when orthographic
-  bool orthographic;
-  float near_distance;
-};
-
-ShaderCamera shader_camera(const Camera& camera, const RenderOptions& options) {
-  ShaderCamera result;
-  // The rotation of a view from the origin: the full matrix would bring its translation's rounding with it.
-  Camera turned = camera;
-  turned.eye = Vec3(0.0f);
-  turned.target = camera.target - camera.eye;
-  result.rotation = view_matrix(turned);
-  result.projection = projection_matrix(camera, static_cast<float>(options.width) / static_cast<float>(options.height));
-  result.eye = camera.eye;
-  const float height = camera.orthographic ? camera.ortho_height : 2.0f * std::tan(0.5f * camera.fov_rad);
-  result.pixel_size = height / static_cast<float>(options.height);
-  result.orthographic = camera.orthographic;
-  result.near_distance = camera.near_distance;
-  return result;
-}
-
-void set_camera(const gl::Program& program, const ShaderCamera& camera) {
-  program.set("rotation", camera.rotation);
-  program.set("eye", camera.eye);
-  program.set("projection", camera.projection);
-  program.set("orthographic", camera.orthographic ? 1 : 0);
-}
-
-void draw_batches(const GpuMesh& gpu, const Mesh& mesh, const gl::Program& program) {
-  const Material fallback = clay();
-  for (const GpuMesh::Batch& batch : gpu.batches()) {
-    const Material& material = mesh.materials.empty() ? fallback : mesh.materials[batch.material];
-    const bool textured = batch.material < gpu.textures().size() && gpu.textures()[batch.material];
-    const bool plain_colors = mesh.materials.empty() && !mesh.colors.empty();
-    program.set("base_color", plain_colors ? Vec3(1.0f) : Vec3(material.base_color));
-    program.set("metallic", material.metallic);
-    program.set("roughness", material.roughness);
-    program.set("textured", textured ? 1 : 0);
-    glBindTextureUnit(0, textured ? gpu.textures()[batch.material].id() : 0);
-    gpu.draw(batch);
-  }
-}
-
 Result<void> draw_faces(gl::Context& context, const Mesh& mesh, std::span<const Vec3> points,
-                        const ShaderCamera& camera, const RenderOptions& options) {
+                        const RenderOptions& options) {
   const auto gpu = GpuMesh::upload(mesh, points);
   if (!gpu) return tl::unexpected(gpu.error());
+  const auto materials = MaterialTable::create(mesh);
+  if (!materials) return tl::unexpected(materials.error());
   gl::ProgramFiles files{"face.vert.glsl", "", "face.frag.glsl", {}};
   if (options.wireframe) {
     files.geometry = "wire.geom.glsl";
@@ -108,25 +56,24 @@ Result<void> draw_faces(gl::Context& context, const Mesh& mesh, std::span<const 
   if (!found) return tl::unexpected(found.error());
   const gl::Program& program = **found;
   program.use();
-  set_camera(program, camera);
+  materials->bind();
   program.set("flat_normals", options.flat || !gpu->has_normals() ? 1 : 0);
   program.set("draw_faces", options.draw_faces ? 1 : 0);
-  program.set("world_up", Vec3(camera.rotation * Vec4(0, 1, 0, 0)));
   glVertexAttrib4f(3, 1.0f, 1.0f, 1.0f, 1.0f);  // the tint of a mesh without colours
   if (!options.draw_faces) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_batches(*gpu, mesh, program);
+    gpu->draw();
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     if (!options.wireframe) return {};
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   }
-  draw_batches(*gpu, mesh, program);
+  gpu->draw();
   return {};
 }
 
-Result<void> draw_segments(gl::Context& context, std::span<const Segment3> segments, const ShaderCamera& camera,
-                           const RenderOptions& options, const RenderTargets& targets) {
+Result<void> draw_segments(gl::Context& context, std::span<const Segment3> segments, const RenderOptions& options,
+                           const RenderTargets& targets) {
   const std::string multisample = "MULTISAMPLE " + std::to_string(targets.samples() > 1 ? targets.samples() : 0);
   const auto found = context.program({"line.vert.glsl", "", "line.frag.glsl", {multisample}});
   if (!found) return tl::unexpected(found.error());
@@ -142,12 +89,7 @@ Result<void> draw_segments(gl::Context& context, std::span<const Segment3> segme
     gl::attach_attribute(array, buffer, {i, 3, i * sizeof(Vec3), sizeof(Segment3), true});
   }
   program.use();
-  set_camera(program, camera);
-  program.set("inverse_projection", glm::inverse(camera.projection));
-  program.set("size_px", Vec2(options.width, options.height));
-  program.set("near_distance", camera.near_distance);
   program.set("half_width_px", 0.5f * options.line_width_px);
-  program.set("pixel_size", camera.pixel_size);
   targets.begin_lines();
   glBindTextureUnit(0, targets.depth().id());
   glBindVertexArray(array.id());
@@ -197,14 +139,15 @@ Result<Image> render(gl::Context& context, const Mesh& mesh, const Camera& camer
   const auto targets = RenderTargets::create(options.width, options.height, options.samples);
   if (!targets) return tl::unexpected(targets.error());
   const UnitScene scene = bring_to_unit_scale(mesh, camera, segments);
-  const ShaderCamera view = shader_camera(scene.camera, options);
+  const CameraBuffer camera_buffer;
+  camera_buffer.update(make_camera_block(scene.camera, options.width, options.height));
+  camera_buffer.bind();
   targets->begin_faces();
   if (!mesh.faces.empty()) {
-    if (auto drawn = draw_faces(context, mesh, scene.points, view, options); !drawn)
-      return tl::unexpected(drawn.error());
+    if (auto drawn = draw_faces(context, mesh, scene.points, options); !drawn) return tl::unexpected(drawn.error());
   }
   if (!segments.empty()) {
-    if (auto drawn = draw_segments(context, scene.segments, view, options, *targets); !drawn)
+    if (auto drawn = draw_segments(context, scene.segments, options, *targets); !drawn)
       return tl::unexpected(drawn.error());
   }
   return targets->resolve(context, options.background);
