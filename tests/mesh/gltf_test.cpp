@@ -261,6 +261,39 @@ TEST(Gltf, ReadsMaterialsAndPictures) {
   EXPECT_TRUE(has_note(imported, "images[2] left out: neither PNG nor JPEG"));
 }
 
+TEST(Gltf, ReadsNormalMapsWithTheirScale) {
+  const test::TempFolder folder;
+  folder.write("n.png", test::kTinyPng);
+  GltfFile file = triangle_file();
+  auto& json = file.json;
+  json["materials"] = Json::parse(R"([{"normalTexture":{"index":0,"scale":0.25}},{"normalTexture":{"index":0}},
+      {"normalTexture":{"index":0,"texCoord":1,"scale":3}},{"normalTexture":{"index":0,"scale":1e300}},{}])");
+  json["textures"] = Json::parse(R"([{"source":0}])");
+  json["images"] = Json::parse(R"([{"uri":"n.png"}])");
+  const ImportedMesh imported = read(file.glb(), folder.path());
+  const std::vector<Material>& materials = imported.mesh.materials;
+  ASSERT_GE(materials.size(), 5u);
+  EXPECT_EQ(materials[0].normal_image.size(), test::kTinyPng.size());
+  EXPECT_EQ(materials[0].normal_image_mime, "image/png");
+  EXPECT_EQ(materials[0].normal_scale, 0.25f);
+  EXPECT_TRUE(materials[0].base_color_image.empty());
+  EXPECT_EQ(materials[1].normal_scale, 1.0f);
+  EXPECT_TRUE(materials[2].normal_image.empty());
+  EXPECT_EQ(materials[2].normal_scale, 1.0f);
+  EXPECT_TRUE(has_note(imported, "materials[2].normalTexture left out: it uses other texture coordinates"));
+  EXPECT_TRUE(std::isfinite(materials[3].normal_scale));
+  EXPECT_TRUE(materials[4].normal_image.empty());
+}
+
+TEST(Gltf, RefusesANormalTextureThatIsNotThere) {
+  GltfFile file = triangle_file();
+  file.json["materials"] = Json::parse(R"([{"normalTexture":{"index":7}}])");
+  const auto imported = formats::read_gltf(source_of(file.glb(), {}));
+  ASSERT_FALSE(imported);
+  EXPECT_NE(format_error(imported.error()).find("materials[0].normalTexture.index"), std::string::npos)
+      << format_error(imported.error());
+}
+
 Mesh random_mesh(bool attributes) {
   Random random(5);
   Mesh mesh;
@@ -310,6 +343,9 @@ TEST(GltfWrite, MaterialsSurviveAndShareVertices) {
   mesh.materials[2].base_color_image.assign(png.begin(), png.end());
   mesh.materials[2].base_color_image_mime = "image/png";
   mesh.materials[2].metallic = 0.3f;
+  mesh.materials[1].normal_image = mesh.materials[2].base_color_image;
+  mesh.materials[1].normal_image_mime = "image/png";
+  mesh.materials[1].normal_scale = 0.5f;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     mesh.face_materials.push_back(f < 40 ? 2 : f % 2);
   const auto files = write_gltf(mesh, "m.gltf", false);
@@ -324,6 +360,9 @@ TEST(GltfWrite, MaterialsSurviveAndShareVertices) {
     EXPECT_EQ(back.materials[i].roughness, mesh.materials[i].roughness);
     EXPECT_EQ(back.materials[i].double_sided, mesh.materials[i].double_sided);
     EXPECT_EQ(back.materials[i].base_color_image, mesh.materials[i].base_color_image);
+    EXPECT_EQ(back.materials[i].normal_image, mesh.materials[i].normal_image);
+    EXPECT_EQ(back.materials[i].normal_image_mime, mesh.materials[i].normal_image_mime);
+    EXPECT_EQ(back.materials[i].normal_scale, mesh.materials[i].normal_scale);
   }
   // Faces come back grouped by material: the same triangles, each with its own.
   std::vector<std::pair<Triangle, std::uint32_t>> before, after;
@@ -337,7 +376,8 @@ TEST(GltfWrite, MaterialsSurviveAndShareVertices) {
 }
 
 TEST(GltfWrite, MaterialsSurviveObjToGlbToObj) {
-  const std::string mtl = "newmtl a b\nKd 0.1 0.2 0.3\nd 0.4\nPr 0.5\nPm 0.7\nmap_Kd p.png\nnewmtl c\nKd 1 0 0\n";
+  const std::string mtl =
+      "newmtl a b\nKd 0.1 0.2 0.3\nd 0.4\nPr 0.5\nPm 0.7\nmap_Kd p.png\nnewmtl c\nKd 1 0 0\nnorm p.png\n";
   const std::string obj =
       "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nusemtl a b\nf 1/1 2/1 3/1\nusemtl c\nf 2/1 4/1 3/1\n";
   const test::TempFolder first, last;
@@ -363,6 +403,8 @@ TEST(GltfWrite, MaterialsSurviveObjToGlbToObj) {
     EXPECT_EQ(is.roughness, was.roughness);
     EXPECT_EQ(is.metallic, was.metallic);
     EXPECT_EQ(is.base_color_image, was.base_color_image);
+    EXPECT_EQ(is.normal_image, was.normal_image);
+    EXPECT_EQ(is.normal_image.empty(), i == 0);
   }
   EXPECT_EQ(back->mesh.face_materials, from_obj->mesh.face_materials);
   EXPECT_EQ(back->mesh.positions, from_obj->mesh.positions);

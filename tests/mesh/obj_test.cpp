@@ -404,6 +404,8 @@ Mesh two_materials() {
   const auto png = std::as_bytes(std::span(kTinyPng.data(), kTinyPng.size()));
   mesh.materials[1].base_color_image.assign(png.begin(), png.end());
   mesh.materials[1].base_color_image_mime = "image/png";
+  mesh.materials[1].normal_image.assign(png.begin(), png.begin() + 12);
+  mesh.materials[1].normal_image_mime = "image/png";
   mesh.materials[2].name = "wood";
   mesh.face_materials = {1, 2};
   return mesh;
@@ -414,9 +416,10 @@ TEST(ObjMaterials, SurviveTheRoundTrip) {
   const Mesh mesh = two_materials();
   const auto files = formats::write_obj(mesh, folder / "my model.obj");
   ASSERT_TRUE(files.has_value());
-  ASSERT_EQ(files->size(), 3u);
+  ASSERT_EQ(files->size(), 4u);
   EXPECT_EQ((*files)[1].path.filename(), "my model-wood.png");
-  EXPECT_EQ((*files)[2].path.filename(), "my model.mtl");
+  EXPECT_EQ((*files)[2].path.filename(), "my model-wood.normal.png");
+  EXPECT_EQ((*files)[3].path.filename(), "my model.mtl");
   for (const auto& file : *files)
     folder.write(file.path.filename().string(), file.bytes);
   const ImportedMesh back = read((*files)[0].bytes, folder.path());
@@ -429,6 +432,7 @@ TEST(ObjMaterials, SurviveTheRoundTrip) {
     EXPECT_EQ(back.mesh.materials[i].roughness, mesh.materials[i].roughness);
     EXPECT_EQ(back.mesh.materials[i].metallic, mesh.materials[i].metallic);
     EXPECT_EQ(back.mesh.materials[i].base_color_image, mesh.materials[i].base_color_image);
+    EXPECT_EQ(back.mesh.materials[i].normal_image, mesh.materials[i].normal_image);
   }
   EXPECT_EQ(back.mesh.face_materials, mesh.face_materials);
 }

@@ -5,6 +5,8 @@
 
 #include "limn/render/render.h"
 
+#include "support/temp_folder.h"
+
 namespace limn::test {
 
 /// A test that draws: a context of its own, and no severe message from the driver allowed.
@@ -73,6 +75,15 @@ inline void append(Mesh& mesh, const Mesh& other) {
   mesh.uvs.values.insert(mesh.uvs.values.end(), other.uvs.values.begin(), other.uvs.values.end());
   for (const Triangle& face : other.faces)
     mesh.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+}
+
+/// The picture as an encoded file, as materials hold it.
+inline std::vector<std::byte> png_of(const Image& image) {
+  const TempFolder folder;
+  EXPECT_TRUE(write_png(image, folder / "texture.png"));
+  const std::string bytes = slurp(folder / "texture.png");
+  const auto view = std::as_bytes(std::span(bytes.data(), bytes.size()));
+  return {view.begin(), view.end()};
 }
 
 }  // namespace limn::test

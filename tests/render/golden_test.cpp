@@ -2,8 +2,10 @@
 //   LIMN_UPDATE_GOLDEN=1 build/release/tests/test_render --gtest_filter='Golden.*'
 // and look at what changed before committing it. A failing test leaves its picture, and where it differs, in the build
 // folder.
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "limn/mesh/shapes.h"
@@ -174,6 +176,41 @@ TEST_F(Golden, MetalBesideRoughPlastic) {
   mesh.materials[1].base_color = Vec4(0.1f, 0.3f, 0.7f, 1.0f);
   mesh.materials[1].roughness = 0.9f;
   expect_golden(draw(mesh, camera_for(mesh, 0.0f, 0.3f), options()), "metal_and_plastic");
+}
+
+/// A normal map of round studs in a square grid, as if turned on a lathe: a rim, a flat top.
+Image studs(int size, int per_side) {
+  Image map(size, size);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const auto in_cell = [&](int i) {
+        const float t = (static_cast<float>(i) + 0.5f) * static_cast<float>(per_side) / static_cast<float>(size);
+        return t - std::floor(t) - 0.5f;
+      };
+      const float at_x = in_cell(x), at_y = -in_cell(y);
+      const float away = std::hypot(at_x, at_y);
+      const float slope = away > 0.18f && away < 0.38f ? 1.2f * std::sin(15.7f * (away - 0.18f)) : 0.0f;
+      const Vec3 n = glm::normalize(Vec3(slope * at_x, slope * at_y, away + 1e-6f));
+      for (int c = 0; c < 3; ++c)
+        map.pixel(x, y)[c] = static_cast<std::uint8_t>(std::lround(127.5f * (n[c] + 1.0f)));
+      map.pixel(x, y)[3] = 255;
+    }
+  }
+  return map;
+}
+
+TEST_F(Golden, TorusWithStudsFromANormalMap) {
+  Mesh mesh = shape(Shape::kTorus, 4000);
+  ASSERT_FALSE(mesh.uvs.empty());
+  Material& material = mesh.materials.emplace_back();
+  material.base_color = Vec4(0.55f, 0.23f, 0.12f, 1.0f);
+  material.roughness = 0.35f;
+  material.normal_image = test::png_of(studs(512, 8));
+  for (Vec2& uv : mesh.uvs.values)
+    uv.x *= 3.0f;
+  CameraFit close;
+  close.fill = 1.3f;
+  expect_golden(draw(mesh, fit_camera(face_bounds(mesh), 0.4f, 0.9f, close), options()), "torus_studs");
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // What a surface looks like: normals, colours, materials, textures, both sides.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "limn/mesh/shapes.h"
 
 #include "drawing_test.h"
-#include "support/temp_folder.h"
 
 namespace limn {
 namespace {
@@ -14,20 +14,13 @@ using test::kTransparent;
 using test::kWhite;
 using test::picture_options;
 using test::pixel_camera;
+using test::png_of;
 using test::rectangle;
 
 class Surface : public test::DrawingTest {
  protected:
   Image draw_small(const Mesh& mesh) { return draw(mesh, pixel_camera(16, 16), picture_options(16, 16, 1, kWhite)); }
 };
-
-std::vector<std::byte> png_of(const Image& image) {
-  const test::TempFolder folder;
-  EXPECT_TRUE(write_png(image, folder / "texture.png"));
-  const std::string bytes = test::slurp(folder / "texture.png");
-  const auto view = std::as_bytes(std::span(bytes.data(), bytes.size()));
-  return {view.begin(), view.end()};
-}
 
 /// 2 x 2 blocks of 8 pixels, rows from the top: red, green; blue, white.
 Image four_colors() {
@@ -86,6 +79,59 @@ TEST_F(Surface, ABrokenTextureNamesItsMaterial) {
   ASSERT_FALSE(image);
   EXPECT_EQ(image.error().code, ErrorCode::kUnsuitable);
   EXPECT_NE(format_error(image.error()).find("bark"), std::string::npos);
+}
+
+/// A picture of one colour.
+Image plain_picture(int width, int height, std::array<std::uint8_t, 3> rgb) {
+  Image image(width, height);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i)
+    image.rgba[i] = i % 4 == 3 ? 255 : rgb[i % 4];
+  return image;
+}
+
+TEST_F(Surface, FacesThatShareVerticesKeepTheirOwnMaterials) {
+  Mesh mesh = rectangle(Vec2(0, 0), Vec2(16, 16));
+  mesh.face_materials = {2, 0};
+  mesh.materials.resize(3);
+  mesh.materials[0].base_color = Vec4(1, 0, 0, 1);
+  mesh.materials[2].base_color = Vec4(0, 1, 0, 1);
+  RenderOptions options = picture_options(16, 16, 1, kWhite);
+  for (const bool wireframe : {false, true}) {
+    options.wireframe = wireframe;
+    const Image image = draw(mesh, pixel_camera(16, 16), options);
+    const std::uint8_t* const low = image.pixel(10, 12);
+    const std::uint8_t* const high = image.pixel(5, 3);
+    EXPECT_GT(low[1], 3 * low[0]);
+    EXPECT_GT(high[0], 3 * high[1]);
+  }
+}
+
+TEST_F(Surface, PicturesOfDifferentSizesEachShowAsTheyWouldAlone) {
+  constexpr int kSide = 64;
+  Mesh left = rectangle(Vec2(0, 0), Vec2(kSide / 2, kSide)), right = rectangle(Vec2(kSide / 2, 0), Vec2(kSide, kSide));
+  Material colors, plain;
+  colors.base_color = plain.base_color = Vec4(1.0f);
+  colors.base_color_image = png_of(four_colors());
+  plain.base_color_image = png_of(plain_picture(5, 24, {200, 90, 30}));
+  Mesh both = left;
+  test::append(both, right);
+  both.materials = {plain, colors, plain};
+  both.face_materials = {1, 1, 2, 2};
+  left.materials = {colors};
+  right.materials = {plain};
+  const auto draw_side = [&](const Mesh& mesh) {
+    return draw(mesh, pixel_camera(kSide, kSide), picture_options(kSide, kSide, 1, kWhite));
+  };
+  const Image image = draw_side(both), left_alone = draw_side(left), right_alone = draw_side(right);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      // Colours meet there, and mix a little differently.
+      if (x < 32 && (x % 16 < 3 || x % 16 >= 13 || y % 32 < 5 || y % 32 >= 27)) continue;
+      const std::uint8_t* const expected = (x < 32 ? left_alone : right_alone).pixel(x, y);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(image.pixel(x, y)[c], expected[c], 2) << x << ", " << y;
+    }
+  }
 }
 
 TEST_F(Surface, VertexColoursMultiplyTheBaseColour) {

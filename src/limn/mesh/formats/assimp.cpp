@@ -137,7 +137,8 @@ Mesh to_mesh(const aiScene& scene, std::vector<std::string>& notes) {
   bool pictures = false;
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
     mesh.materials.push_back(to_material(*scene.mMaterials[i]));
-    pictures |= scene.mMaterials[i]->GetTextureCount(aiTextureType_DIFFUSE) > 0;
+    pictures |= scene.mMaterials[i]->GetTextureCount(aiTextureType_DIFFUSE) > 0 ||
+                scene.mMaterials[i]->GetTextureCount(aiTextureType_NORMALS) > 0;
   }
   const bool one_material =
       std::all_of(mesh.face_materials.begin(), mesh.face_materials.end(), [](std::uint32_t m) { return m == 0; });

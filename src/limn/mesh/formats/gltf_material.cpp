@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <set>
+#include <utility>
 
 #include "limn/mesh/formats/picture_bytes.h"
 
@@ -11,6 +13,11 @@ namespace {
 
 float unit_interval(const Field& field, double otherwise) {
   return static_cast<float>(std::clamp(field.number_or(otherwise), 0.0, 1.0));
+}
+
+float finite_float(double value) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(value, -kLargest, kLargest));
 }
 
 /// Decides which materials get a copy of their picture.
@@ -34,28 +41,46 @@ class Copies {
   PictureBudget budget_;
 };
 
-/// Copies the picture of baseColorTexture into the material.
-void read_picture(Document& document, const Field& texture_info, Material& material, Copies& copies) {
+/// The encoded picture that a texture shows, and its type; empty, with a note, for one that cannot be used.
+struct OwnPicture {
+  std::vector<std::byte> bytes;
+  std::string mime;
+};
+
+OwnPicture read_picture(Document& document, const Field& texture_info, Copies& copies) {
   const std::size_t texture = texture_info["index"].index_into(document["textures"]);
   if (texture_info["texCoord"].index_or(0) != 0 ||
       texture_info["extensions"]["KHR_texture_transform"]["texCoord"].index_or(0) != 0) {
     document.note(fmt::format("{} left out: it uses other texture coordinates than TEXCOORD_0", texture_info.path()));
-    return;
+    return {};
   }
   if (texture_info["extensions"]["KHR_texture_transform"]) document.note("texture transforms left out");
   const Field source = document["textures"].at(texture)["source"];
   if (!source) {
     document.note(fmt::format("{} left out: it has no PNG or JPEG source", texture_info.path()));
-    return;
+    return {};
   }
   const std::size_t image = source.index_into(document["images"]);
   const Picture picture = document.picture(image);
   if (!copies.take(image, picture.bytes.size())) {
     document.note(fmt::format("{} left out: its picture is used too many times", texture_info.path()));
-    return;
+    return {};
   }
-  material.base_color_image.assign(picture.bytes.begin(), picture.bytes.end());
-  material.base_color_image_mime = picture.mime;
+  return {{picture.bytes.begin(), picture.bytes.end()}, picture.mime};
+}
+
+void read_base_color_picture(Document& document, const Field& texture_info, Material& material, Copies& copies) {
+  OwnPicture picture = read_picture(document, texture_info, copies);
+  material.base_color_image = std::move(picture.bytes);
+  material.base_color_image_mime = std::move(picture.mime);
+}
+
+void read_normal_picture(Document& document, const Field& texture_info, Material& material, Copies& copies) {
+  OwnPicture picture = read_picture(document, texture_info, copies);
+  if (picture.bytes.empty()) return;
+  material.normal_image = std::move(picture.bytes);
+  material.normal_image_mime = std::move(picture.mime);
+  material.normal_scale = finite_float(texture_info["scale"].number_or(1.0));
 }
 
 }  // namespace
@@ -85,7 +110,8 @@ std::vector<Material> read_materials(Document& document) {
     material.metallic = unit_interval(pbr["metallicFactor"], 1.0);
     material.roughness = unit_interval(pbr["roughnessFactor"], 1.0);
     material.double_sided = field["doubleSided"].boolean_or(false);
-    if (const Field texture = pbr["baseColorTexture"]) read_picture(document, texture, material, copies);
+    if (const Field texture = pbr["baseColorTexture"]) read_base_color_picture(document, texture, material, copies);
+    if (const Field texture = field["normalTexture"]) read_normal_picture(document, texture, material, copies);
     materials.push_back(std::move(material));
   }
   return materials;

@@ -61,12 +61,13 @@ class Builder {
   std::size_t add_indices(const std::vector<std::uint32_t>& faces);
   Json add_primitives();
   void add_materials();
-  Json picture(const Material& material);
+  Json normal_texture(const Material& material);
+  Json picture(const std::vector<std::byte>& image, const std::string& mime);
   std::vector<std::vector<std::uint32_t>> faces_by_material() const;
 
   const Mesh& mesh_;
   VertexMesh vertices_;
-  std::vector<std::pair<const Material*, std::size_t>> textures_;
+  std::vector<std::pair<const std::vector<std::byte>*, std::size_t>> textures_;
   Json json_;
   std::string data_;
 };
@@ -153,17 +154,24 @@ Json Builder::add_primitives() {
   return primitives;
 }
 
-/// A texture, with the image and view it needs; one for all materials that hold the same picture.
-Json Builder::picture(const Material& material) {
+/// A texture, with the image and view it needs; one for all uses of the same picture.
+Json Builder::picture(const std::vector<std::byte>& image, const std::string& mime) {
   for (const auto& [earlier, texture] : textures_) {
-    if (earlier->base_color_image == material.base_color_image) return {{"index", texture}};
+    if (*earlier == image) return {{"index", texture}};
   }
   const std::size_t begin = begin_view();
-  data_.append(reinterpret_cast<const char*>(material.base_color_image.data()), material.base_color_image.size());
-  json_["images"].push_back({{"bufferView", end_view(begin, kNone)}, {"mimeType", material.base_color_image_mime}});
+  data_.append(reinterpret_cast<const char*>(image.data()), image.size());
+  json_["images"].push_back({{"bufferView", end_view(begin, kNone)}, {"mimeType", mime}});
   json_["textures"].push_back({{"source", json_["images"].size() - 1}});
-  textures_.emplace_back(&material, json_["textures"].size() - 1);
+  textures_.emplace_back(&image, json_["textures"].size() - 1);
   return {{"index", textures_.back().second}};
+}
+
+Json Builder::normal_texture(const Material& material) {
+  Json texture = picture(material.normal_image, material.normal_image_mime);
+  const bool plain = material.normal_scale == 1.0f || !std::isfinite(material.normal_scale);
+  if (!plain) texture["scale"] = material.normal_scale;
+  return texture;
 }
 
 void Builder::add_materials() {
@@ -174,10 +182,13 @@ void Builder::add_materials() {
     Json pbr = {{"baseColorFactor",
                  {unit_interval(color.r), unit_interval(color.g), unit_interval(color.b), unit_interval(color.a)}}};
     // A texture without coordinates to look it up with would make the file invalid.
-    if (!material.base_color_image.empty() && !vertices_.uvs.empty()) pbr["baseColorTexture"] = picture(material);
+    const bool pictures = !vertices_.uvs.empty();
+    if (pictures && !material.base_color_image.empty())
+      pbr["baseColorTexture"] = picture(material.base_color_image, material.base_color_image_mime);
     pbr["metallicFactor"] = unit_interval(material.metallic);
     pbr["roughnessFactor"] = unit_interval(material.roughness);
     entry["pbrMetallicRoughness"] = std::move(pbr);
+    if (pictures && !material.normal_image.empty()) entry["normalTexture"] = normal_texture(material);
     if (color.a < 1.0f) entry["alphaMode"] = "BLEND";
     if (material.double_sided) entry["doubleSided"] = true;
     json_["materials"].push_back(std::move(entry));

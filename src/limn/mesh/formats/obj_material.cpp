@@ -139,11 +139,14 @@ void ObjMaterials::set(Material& material, std::string_view key, std::string_vie
   } else if (key == "Pm" && take_numbers(values, v, 1) == 1) {
     material.metallic = std::clamp(v[0], 0.0f, 1.0f);
   } else if (key == "map_Kd") {
-    load_picture(material, values);
+    load_picture(material, values, material.base_color_image, material.base_color_image_mime);
+  } else if (key == "norm") {
+    load_picture(material, values, material.normal_image, material.normal_image_mime);
   }
 }
 
-void ObjMaterials::load_picture(Material& material, std::string_view statement) {
+void ObjMaterials::load_picture(const Material& material, std::string_view statement, std::vector<std::byte>& image,
+                                std::string& mime) {
   const std::string name(map_file_name(statement));
   std::string file = file_key(name);
   auto entry = pictures_.find(file);
@@ -162,8 +165,8 @@ void ObjMaterials::load_picture(Material& material, std::string_view statement) 
     notes_.push_back("picture \"" + name + "\" of material \"" + material.name + "\" left out: used too many times");
     return;
   }
-  material.base_color_image = entry->second;
-  material.base_color_image_mime = picture_mime(entry->second);
+  image = entry->second;
+  mime = picture_mime(entry->second);
 }
 
 }  // namespace limn::formats

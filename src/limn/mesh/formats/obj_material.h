@@ -35,7 +35,9 @@ class ObjMaterials {
   bool read_library(const std::string& name, bool last_attempt);
   void parse(std::string_view text);
   void set(Material& material, std::string_view key, std::string_view values);
-  void load_picture(Material& material, std::string_view statement);
+  /// Into `image` and `mime`, which are `material`'s.
+  void load_picture(const Material& material, std::string_view statement, std::vector<std::byte>& image,
+                    std::string& mime);
 
   std::filesystem::path folder_;
   std::vector<std::string>& notes_;

@@ -83,14 +83,21 @@ std::string material_library(const Mesh& mesh, const std::vector<std::string>& n
     append_line(text, "d", material.base_color.a);
     append_line(text, "Pr", material.roughness);
     append_line(text, "Pm", material.metallic);
-    if (material.base_color_image.empty()) continue;
+    if (material.base_color_image.empty() && material.normal_image.empty()) continue;
     std::string stem = file_stem + "-" + file_name_part(names[i]);
     while (!picture_names.insert(stem).second)
       stem += fmt::format("_{}", i + 1);
-    const std::string name = stem + (material.base_color_image_mime == "image/jpeg" ? ".jpg" : ".png");
-    text += "map_Kd " + name + "\n";
-    const auto* const bytes = reinterpret_cast<const char*>(material.base_color_image.data());
-    files.push_back({path.parent_path() / name, std::string(bytes, material.base_color_image.size())});
+    const auto add_picture = [&](const char* key, const std::vector<std::byte>& image, const std::string& mime,
+                                 const char* end) {
+      if (image.empty()) return;
+      const std::string name = stem + end + (mime == "image/jpeg" ? ".jpg" : ".png");
+      text += fmt::format("{} {}\n", key, name);
+      files.push_back(
+          {path.parent_path() / name, std::string(reinterpret_cast<const char*>(image.data()), image.size())});
+    };
+    add_picture("map_Kd", material.base_color_image, material.base_color_image_mime, "");
+    // A material's name never gives a point, so this cannot be another's picture.
+    add_picture("norm", material.normal_image, material.normal_image_mime, ".normal");
   }
   return text;
 }
