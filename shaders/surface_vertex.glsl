@@ -1,7 +1,7 @@
 // How every stage that places a surface's vertices hands one to the fragments (face.frag.glsl). With WIREFRAME the geometry
 // stage wire.geom.glsl stands between.
 
-#include "camera_block.glsl"
+#include "clip_space.glsl"
 
 #ifdef WIREFRAME
 #define SURFACE_OUT(name) v_##name
@@ -15,19 +15,13 @@ layout(location = 2) out vec2 SURFACE_OUT(texture_uv);      // v downwards, as p
 layout(location = 3) out vec4 SURFACE_OUT(tint);
 layout(location = 4) flat out uint SURFACE_OUT(material);
 
-invariant gl_Position;
-
-/// A vertex in world space; v upwards. Equal positions give equal clip coordinates in every program: each sum is written
-/// out and `precise`, so that no compiler orders it differently or contracts it.
+/// A vertex in world space; v upwards.
 void emit_surface(vec3 position, vec3 normal, vec2 uv, vec4 color, uint material_id) {
-  // Relative to the eye first: far from the origin the translation of a matrix would lose the low bits.
-  precise vec3 d = position - eye;
-  precise vec3 p = rotation[0].xyz * d.x + rotation[1].xyz * d.y + rotation[2].xyz * d.z;
-  precise vec4 clip = projection[0] * p.x + projection[1] * p.y + projection[2] * p.z + projection[3];
+  vec3 p = to_eye_space(position);
   SURFACE_OUT(at) = p;
   SURFACE_OUT(shading_normal) = mat3(rotation) * normal;
   SURFACE_OUT(texture_uv) = vec2(uv.x, 1.0 - uv.y);
   SURFACE_OUT(tint) = color;
   SURFACE_OUT(material) = material_id;
-  gl_Position = clip;
+  gl_Position = to_clip_space(p);
 }

@@ -100,7 +100,7 @@ std::size_t distinct_corners(const Mesh& mesh) {
 }
 
 void expect_split_well(const Mesh& mesh) {
-  const formats::VertexMesh split = formats::one_value_per_vertex(mesh);
+  const VertexMesh split = one_value_per_vertex(mesh);
   ASSERT_EQ(split.source.size(), split.positions.size());
   for (std::size_t i = 0; i < split.positions.size(); ++i) {
     if (i < mesh.positions.size()) {
@@ -122,9 +122,9 @@ void expect_split_well(const Mesh& mesh) {
 TEST(OneValuePerVertex, RepeatsVerticesOnlyWhereCornersDiffer) {
   const Mesh seams = test::awkward_tetrahedron(true);
   expect_split_well(seams);
-  EXPECT_EQ(formats::one_value_per_vertex(seams).positions.size(), distinct_corners(seams));
+  EXPECT_EQ(one_value_per_vertex(seams).positions.size(), distinct_corners(seams));
   expect_split_well(test::awkward_tetrahedron(false));
-  EXPECT_EQ(formats::one_value_per_vertex(test::awkward_tetrahedron(false)).positions.size(), 4u);
+  EXPECT_EQ(one_value_per_vertex(test::awkward_tetrahedron(false)).positions.size(), 4u);
   for (const test::StableMesh& entry : test::awkward_meshes()) {
     SCOPED_TRACE(entry.name);
     expect_split_well(entry.mesh);
@@ -140,7 +140,7 @@ TEST(OneValuePerVertex, SplitsAFanOfManyDifferentCornersInLinearTime) {
     mesh.uvs.values.emplace_back(static_cast<float>(face), 0.0f);
     mesh.uvs.indices.insert(mesh.uvs.indices.end(), {face, 0, 0});
   }
-  const formats::VertexMesh split = formats::one_value_per_vertex(mesh);
+  const VertexMesh split = one_value_per_vertex(mesh);
   EXPECT_EQ(split.positions.size(), distinct_corners(mesh));
 }
 

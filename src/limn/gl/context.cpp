@@ -93,11 +93,17 @@ const std::string& Context::last_severe_message() const {
 
 Result<const Program*> Context::program(const ProgramFiles& files) {
   ProgramText text;
-  const std::pair<const std::string*, std::string*> stages[] = {{&files.vertex, &text.vertex},
-                                                                {&files.geometry, &text.geometry},
-                                                                {&files.fragment, &text.fragment},
-                                                                {&files.compute, &text.compute}};
+  const std::pair<const std::string*, std::string*> stages[] = {
+      {&files.vertex, &text.vertex},
+      {&files.tessellation_control, &text.tessellation_control},
+      {&files.tessellation_evaluation, &text.tessellation_evaluation},
+      {&files.geometry, &text.geometry},
+      {&files.fragment, &text.fragment},
+      {&files.compute, &text.compute}};
+  text.captured = files.captured;
   std::string key;
+  for (const std::string& varying : files.captured)
+    key += varying + '\0';
   for (const auto& [name, source] : stages) {
     if (name->empty()) continue;
     auto read = impl_->library.source(*name, files.defines);

@@ -65,11 +65,20 @@ Result<void> attach(GLuint program, GLenum stage, const std::string& text, const
 Result<std::unique_ptr<Program>> Program::link(const ProgramText& text, const std::string& name) {
   std::unique_ptr<Program> program(new Program(glCreateProgram()));
   const std::pair<GLenum, const std::string*> stages[] = {{GL_VERTEX_SHADER, &text.vertex},
+                                                          {GL_TESS_CONTROL_SHADER, &text.tessellation_control},
+                                                          {GL_TESS_EVALUATION_SHADER, &text.tessellation_evaluation},
                                                           {GL_GEOMETRY_SHADER, &text.geometry},
                                                           {GL_FRAGMENT_SHADER, &text.fragment},
                                                           {GL_COMPUTE_SHADER, &text.compute}};
   for (const auto& [stage, source] : stages) {
     if (auto attached = attach(program->id_, stage, *source, name); !attached) return tl::unexpected(attached.error());
+  }
+  std::vector<const char*> captured;
+  for (const std::string& varying : text.captured)
+    captured.push_back(varying.c_str());
+  if (!captured.empty()) {
+    glTransformFeedbackVaryings(program->id_, static_cast<GLsizei>(captured.size()), captured.data(),
+                                GL_INTERLEAVED_ATTRIBS);
   }
   glLinkProgram(program->id_);
   GLint status = 0;
@@ -78,6 +87,7 @@ Result<std::unique_ptr<Program>> Program::link(const ProgramText& text, const st
     return fail_at(ErrorCode::kNoGraphics, name, {}, "the program does not link here: " + link_log(program->id_),
                    kRemedy);
   }
+  program->find_uniforms();
   return program;
 }
 
@@ -89,8 +99,27 @@ void Program::use() const {
   glUseProgram(id_);
 }
 
-int Program::location(const char* uniform) const {
-  return glGetUniformLocation(id_, uniform);
+void Program::find_uniforms() {
+  GLint count = 0, longest = 0;
+  glGetProgramiv(id_, GL_ACTIVE_UNIFORMS, &count);
+  glGetProgramiv(id_, GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
+  std::string name(static_cast<std::size_t>(std::max(longest, 1)), '\0');
+  for (GLint i = 0; i < count; ++i) {
+    GLint size = 0;
+    GLenum type = 0;
+    GLsizei length = 0;
+    glGetActiveUniform(id_, static_cast<GLuint>(i), static_cast<GLsizei>(name.size()), &length, &size, &type,
+                       name.data());
+    const std::string used = name.substr(0, static_cast<std::size_t>(length));
+    locations_.emplace_back(used, glGetUniformLocation(id_, used.c_str()));
+  }
+  std::sort(locations_.begin(), locations_.end());
+}
+
+int Program::location(std::string_view uniform) const {
+  const auto found = std::lower_bound(locations_.begin(), locations_.end(), uniform,
+                                      [](const auto& known, std::string_view name) { return known.first < name; });
+  return found != locations_.end() && found->first == uniform ? found->second : -1;
 }
 
 void Program::set(const char* uniform, int value) const {

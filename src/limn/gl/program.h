@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "limn/base/result.h"
@@ -16,15 +18,21 @@ struct ProgramFiles {
   std::string fragment;
   std::vector<std::string> defines;  ///< "NAME VALUE" each
   std::string compute = {};
+  std::string tessellation_control = {}, tessellation_evaluation = {};
+  /// What transform feedback catches of the last stage before the fragments, a vertex's values one after the other.
+  std::vector<std::string> captured = {};
 };
 
 /// The texts of a program's stages, ready to compile; those it does not have are empty.
 struct ProgramText {
   std::string vertex, geometry, fragment;
   std::string compute = {};
+  std::string tessellation_control = {}, tessellation_evaluation = {};
+  std::vector<std::string> captured = {};
 };
 
-/// A linked program, deleted with its owner. Setting a uniform that the linked program does not use does nothing.
+/// A linked program, deleted with its owner. Setting a uniform that the linked program does not use does nothing, and
+/// setting one asks the driver nothing.
 class Program {
  public:
   /// Compiles and links. \param name  stands for the program in messages
@@ -45,8 +53,10 @@ class Program {
 
  private:
   explicit Program(unsigned id) : id_(id) {}
-  int location(const char* uniform) const;
+  void find_uniforms();
+  int location(std::string_view uniform) const;
   unsigned id_;
+  std::vector<std::pair<std::string, int>> locations_;  // sorted
 };
 
 }  // namespace limn::gl

@@ -83,7 +83,26 @@ double deviation_px(const Mesh& mesh, const Edge& edge, const EdgeCurve& curve, 
   return largest * double{view.pixels_per_unit} / (view.eye.orthographic ? 1.0 : distance);
 }
 
-Result<void> check(const Mesh& mesh, const View& view, const LevelOptions& options) {
+std::vector<float> share_of(const Mesh& mesh, const Topology& topology, std::span<const Vec3> normals, const View& view,
+                            const LevelOptions& options) {
+  switch (options.criterion) {
+    case Criterion::kSilhouette:
+      return edge_silhouetteness(mesh, topology, normals, view.eye, options.wedge);
+    case Criterion::kDistance:
+      return distance_share(mesh, topology, view.eye, options);
+    case Criterion::kCurvature:
+      return curvature_share(mesh, topology);
+    case Criterion::kTags:
+      return tag_share(mesh, topology, options.max_level);
+    case Criterion::kUniform:
+      break;
+  }
+  return std::vector<float>(topology.edge_count(), 1.0f);
+}
+
+}  // namespace
+
+Result<void> check_levels(const Mesh& mesh, const View& view, const LevelOptions& options) {
   const auto invalid = [](std::string message, std::string remedy) {
     return fail(ErrorCode::kInvalidArgument, std::move(message), std::move(remedy));
   };
@@ -119,31 +138,19 @@ Result<void> check(const Mesh& mesh, const View& view, const LevelOptions& optio
   return {};
 }
 
-std::vector<float> share_of(const Mesh& mesh, const Topology& topology, std::span<const Vec3> normals, const View& view,
-                            const LevelOptions& options) {
-  switch (options.criterion) {
-    case Criterion::kSilhouette:
-      return edge_silhouetteness(mesh, topology, normals, view.eye, options.wedge);
-    case Criterion::kDistance:
-      return distance_share(mesh, topology, view.eye, options);
-    case Criterion::kCurvature:
-      return curvature_share(mesh, topology);
-    case Criterion::kTags:
-      return tag_share(mesh, topology, options.max_level);
-    case Criterion::kUniform:
-      break;
-  }
-  return std::vector<float>(topology.edge_count(), 1.0f);
+Result<std::vector<float>> edge_shares(const Mesh& mesh, const Topology& topology, std::span<const Vec3> face_normals,
+                                       const View& view, const LevelOptions& options) {
+  if (auto valid = check_levels(mesh, view, options); !valid) return tl::unexpected(valid.error());
+  return share_of(mesh, topology, face_normals, view, options);
 }
-
-}  // namespace
 
 Result<std::vector<float>> edge_levels(const Mesh& mesh, const Topology& topology, std::span<const Vec3> face_normals,
                                        std::span<const EdgeCurve> curves, const View& view,
                                        const LevelOptions& options) {
   assert(face_normals.size() == topology.face_count() && curves.size() == topology.edge_count());
-  if (auto valid = check(mesh, view, options); !valid) return tl::unexpected(valid.error());
-  const std::vector<float> share = share_of(mesh, topology, face_normals, view, options);
+  const Result<std::vector<float>> shares = edge_shares(mesh, topology, face_normals, view, options);
+  if (!shares) return tl::unexpected(shares.error());
+  const std::vector<float>& share = *shares;
   const double max_level = options.max_level;
   return per_edge(topology, [&](std::size_t e) {
     if (options.pixels == 0.0f) return max_level * double{share[e]};

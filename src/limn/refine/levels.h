@@ -25,6 +25,9 @@ enum class Criterion {
 /// The deepest level anything here takes: 2^8 segments an edge.
 inline constexpr int kMaxLevel = 8;
 
+/// Levels are multiples of it, so that every device finds the same.
+inline constexpr float kLevelUnit = 1.0f / 4096.0f;
+
 /// The turn along an edge from which Criterion::kCurvature refines fully: 45°.
 inline constexpr float kFullTurn_rad = 0.78539816f;
 
@@ -51,6 +54,14 @@ struct LevelOptions {
 Result<std::vector<float>> edge_levels(const Mesh& mesh, const Topology& topology, std::span<const Vec3> face_normals,
                                        std::span<const EdgeCurve> curves, const View& view,
                                        const LevelOptions& options);
+
+/// Whether edge_levels() can do what the options ask of this mesh and view; its errors.
+Result<void> check_levels(const Mesh& mesh, const View& view, const LevelOptions& options);
+
+/// The criterion's value α at every edge, in [0, 1]: what edge_levels() makes levels of.
+/// \param face_normals  kSilhouette needs them. Errors and cost as edge_levels().
+Result<std::vector<float>> edge_shares(const Mesh& mesh, const Topology& topology, std::span<const Vec3> face_normals,
+                                       const View& view, const LevelOptions& options);
 
 /// Meyer's discrete Gaussian curvature at every welded vertex (Meyer et al. 2002, section 4): the angle missing from 2π
 /// (from π at a boundary) over the mixed Voronoi area; 0 at vertices without faces and where the area is 0.

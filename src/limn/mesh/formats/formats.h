@@ -11,6 +11,7 @@
 #include "limn/base/result.h"
 #include "limn/mesh/export.h"
 #include "limn/mesh/import.h"
+#include "limn/mesh/vertex_mesh.h"
 
 /// One reader and one writer a format; read_mesh() and write_mesh() choose among them and check what comes back.
 namespace limn::formats {
@@ -44,18 +45,5 @@ Result<std::vector<OutputFile>> write_stl(const Mesh& mesh, const std::filesyste
 Result<std::vector<OutputFile>> write_off(const Mesh& mesh, const std::filesystem::path& path);
 Result<std::vector<OutputFile>> write_obj(const Mesh& mesh, const std::filesystem::path& path);
 Result<std::vector<OutputFile>> write_gltf(const Mesh& mesh, const std::filesystem::path& path, bool binary);
-
-/// One value a vertex: the mesh with a vertex repeated where its corners' attributes differ, as PLY and glTF need it.
-/// Attributes come back without indices. Vertices keep their order, repeats follow. Same bits for any number of
-/// threads.
-struct VertexMesh {
-  std::vector<Vec3> positions;
-  std::vector<Vec3> normals;
-  std::vector<Vec2> uvs;
-  std::vector<Vec4> colors;
-  std::vector<Triangle> faces;
-  std::vector<VertexId> source;  ///< one a vertex: the mesh's position it repeats
-};
-VertexMesh one_value_per_vertex(const Mesh& mesh);
 
 }  // namespace limn::formats

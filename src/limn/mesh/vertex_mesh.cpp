@@ -1,8 +1,10 @@
+#include "limn/mesh/vertex_mesh.h"
+
+#include <cstdint>
 #include <cstring>
+#include <utility>
 
-#include "limn/mesh/formats/formats.h"
-
-namespace limn::formats {
+namespace limn {
 namespace {
 
 /// What one corner carries; attributes a mesh lacks stay zero.
@@ -147,4 +149,4 @@ VertexMesh one_value_per_vertex(const Mesh& mesh) {
   return result;
 }
 
-}  // namespace limn::formats
+}  // namespace limn

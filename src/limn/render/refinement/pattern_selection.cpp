@@ -1,0 +1,247 @@
+#include "limn/render/refinement/pattern_selection.h"
+
+#include <algorithm>
+#include <array>
+#include <epoxy/gl.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "limn/gl/compute.h"
+#include "limn/gl/objects.h"
+
+namespace limn {
+namespace {
+
+constexpr std::size_t kSortBlock = 1024;  // refine_selection.glsl
+constexpr std::size_t kCommandUints = 5;
+constexpr std::size_t kFrameUints = 48;
+constexpr std::size_t kDispatchOffset = 16;
+constexpr unsigned kLevels = 0, kFrame = 1, kKeys = 2, kLists = 3, kBlocks = 4, kGroups = 5, kCommands = 6, kDraws = 7;
+
+}  // namespace
+
+struct PatternSelection::Impl {
+  const RefinementScene* scene = nullptr;
+  const PatternBuffers* patterns = nullptr;
+  PatternFamily family = PatternFamily::kNested;
+  int max_level = 0;
+  gl::Buffer frame, keys, lists, blocks, groups, commands;
+  gl::Texture cut;
+  gl::VertexArray coarse, several, single;
+  const gl::Program *around = nullptr, *faces = nullptr, *block_scan = nullptr, *write_lists = nullptr,
+                    *histogram = nullptr, *offsets = nullptr, *sort = nullptr, *budget = nullptr, *take_cut = nullptr;
+
+  ~Impl() {
+    if (scene != nullptr) scene->context().make_current();  // what the members delete is this context's
+  }
+
+  std::size_t capacity() const { return scene->face_capacity(); }
+  std::size_t group_count() const { return 2 * (patterns->draws().size() - 1); }
+  std::size_t sort_blocks() const { return (capacity() + kSortBlock - 1) / kSortBlock; }
+  std::size_t entry_capacity() const { return capacity() + 4 * group_count(); }
+
+  Result<void> load_programs() {
+    const std::string nested = family == PatternFamily::kNested ? "NESTED 1" : "NESTED 0";
+    const std::pair<const gl::Program**, const char*> all[] = {
+        {&around, "refine_around.comp.glsl"},       {&faces, "refine_faces.comp.glsl"},
+        {&block_scan, "refine_blocks.comp.glsl"},   {&write_lists, "refine_lists.comp.glsl"},
+        {&histogram, "refine_histogram.comp.glsl"}, {&offsets, "refine_offsets.comp.glsl"},
+        {&sort, "refine_sort.comp.glsl"},           {&budget, "refine_budget.comp.glsl"},
+        {&take_cut, "refine_cut.comp.glsl"}};
+    for (const auto& [program, name] : all) {
+      gl::ProgramFiles files;
+      files.compute = name;
+      files.defines = {nested};
+      const auto made = scene->context().program(files);
+      if (!made) return tl::unexpected(made.error());
+      *program = *made;
+      (*program)->set("face_capacity", static_cast<unsigned>(capacity()));
+      (*program)->set("group_count", static_cast<unsigned>(group_count()));
+    }
+    return {};
+  }
+
+  void allocate() {
+    constexpr std::size_t kUint = sizeof(std::uint32_t);
+    frame = gl::make_storage(kFrameUints * kUint);
+    cut = gl::make_uint_texture(frame, 1);
+    keys = gl::make_storage(entry_capacity() * kUint);
+    lists = gl::make_storage(3 * capacity() * kUint);
+    blocks = gl::make_storage(2 * capacity() / gl::kWorkgroupSize * kUint);
+    groups = gl::make_storage(sort_blocks() * group_count() * kUint);
+    commands = gl::make_storage((1 + 2 * group_count()) * kCommandUints * kUint);
+    coarse = gl::make_vertex_array();
+    glVertexArrayElementBuffer(coarse.id(), lists.id());
+    several = instance_array(4);
+    single = instance_array(1);
+  }
+
+  /// Pattern vertices, and so many entries an instance.
+  gl::VertexArray instance_array(int entries) const {
+    gl::VertexArray array = gl::make_vertex_array();
+    const auto attach = [&array](unsigned location, const gl::Buffer& buffer, int count, unsigned divisor) {
+      glVertexArrayVertexBuffer(array.id(), location, buffer.id(), 0, count * GLsizei{4});
+      glVertexArrayAttribIFormat(array.id(), location, count, GL_UNSIGNED_INT, 0);
+      glVertexArrayAttribBinding(array.id(), location, location);
+      glVertexArrayBindingDivisor(array.id(), location, divisor);
+      glEnableVertexArrayAttrib(array.id(), location);
+    };
+    if (patterns->vertices()) attach(0, patterns->vertices(), 1, 0);
+    attach(1, keys, entries, 1);
+    glVertexArrayElementBuffer(array.id(), patterns->indices().id());
+    return array;
+  }
+
+  void fit_budget() const {
+    const auto units = static_cast<unsigned>(max_level) * 4096u;
+    for (const unsigned step : {units / 16, units / 256}) {
+      budget->use();
+      budget->set("step_units", step);
+      gl::dispatch_items(capacity());
+      gl::storage_barrier();
+      take_cut->use();
+      take_cut->set("step_units", step);
+      take_cut->set("last_round", step == units / 256 ? 1 : 0);
+      gl::dispatch(1);
+      gl::storage_barrier();
+    }
+  }
+
+  void bind(const EdgeLevelPass& levels) const {
+    scene->bind();
+    gl::bind_storage(kLevels, levels.buffer());
+    gl::bind_storage(kFrame, frame.id());
+    gl::bind_storage(kKeys, keys.id());
+    gl::bind_storage(kLists, lists.id());
+    gl::bind_storage(kBlocks, blocks.id());
+    gl::bind_storage(kGroups, groups.id());
+    gl::bind_storage(kCommands, commands.id());
+    gl::bind_storage(kDraws, patterns->draw_buffer().id());
+  }
+
+  void multi_draw(const gl::VertexArray& array, std::size_t first_command, std::size_t count) const {
+    glBindVertexArray(array.id());
+    glMultiDrawElementsIndirect(GL_TRIANGLES, patterns->index_type(),
+                                reinterpret_cast<const void*>(first_command * kCommandUints * 4),
+                                static_cast<GLsizei>(count), 0);
+  }
+};
+
+Result<PatternSelection> PatternSelection::create(const RefinementScene& scene, PatternFamily family,
+                                                  const PatternBuffers& patterns, int max_level) {
+  scene.context().make_current();
+  auto impl = std::make_unique<Impl>();
+  impl->scene = &scene;
+  impl->patterns = &patterns;
+  impl->family = family;
+  impl->max_level = max_level;
+  const gl::Limits limits = gl::limits();
+  if (impl->entry_capacity() * 12 > limits.storage_bytes) {
+    return fail(ErrorCode::kNoGraphics,
+                "the graphics device cannot refine " + std::to_string(impl->capacity()) +
+                    " faces: one buffer holds up to " + std::to_string(limits.storage_bytes) + " bytes there",
+                "draw a smaller scene, or refine on the CPU");
+  }
+  if (auto loaded = impl->load_programs(); !loaded) return tl::unexpected(loaded.error());
+  gl::take_out_of_memory();
+  impl->allocate();
+  if (gl::take_out_of_memory()) {
+    return fail(ErrorCode::kNoGraphics,
+                "the graphics device has no memory for the patterns of " + std::to_string(impl->capacity()) + " faces",
+                "draw a smaller scene");
+  }
+  return PatternSelection(std::move(impl));
+}
+
+PatternSelection::PatternSelection(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+PatternSelection::~PatternSelection() = default;
+PatternSelection::PatternSelection(PatternSelection&&) noexcept = default;
+PatternSelection& PatternSelection::operator=(PatternSelection&&) noexcept = default;
+
+void PatternSelection::run(const EdgeLevelPass& levels, std::uint64_t budget) const {
+  const Impl& impl = *impl_;
+  const std::uint64_t most = std::min<std::uint64_t>(budget, 0xffffffffu);
+  const std::array<std::uint32_t, 4> start = {0, 0, 0, static_cast<std::uint32_t>(most)};
+  gl::write_storage(impl.frame, std::as_bytes(std::span(start)));
+  impl.bind(levels);
+  const auto pass = [](const gl::Program* program, std::size_t groups) {
+    program->use();
+    gl::dispatch(groups);
+    gl::storage_barrier();
+  };
+  const std::size_t face_blocks = impl.capacity() / gl::kWorkgroupSize;
+  if (impl.family == PatternFamily::kNested) pass(impl.around, face_blocks);
+  if (budget > 0 && impl.max_level > 0) impl.fit_budget();
+  pass(impl.faces, face_blocks);
+  pass(impl.block_scan, 1);
+  pass(impl.write_lists, face_blocks);
+  impl.histogram->use();
+  gl::dispatch_indirect(impl.frame, kDispatchOffset);
+  gl::storage_barrier();
+  pass(impl.offsets, 1);
+  impl.sort->use();
+  gl::dispatch_indirect(impl.frame, kDispatchOffset);
+  gl::full_barrier();
+}
+
+void PatternSelection::draw_coarse() const {
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, impl_->commands.id());
+  glBindVertexArray(impl_->coarse.id());
+  glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr);
+}
+
+void PatternSelection::draw_refined() const {
+  const std::size_t groups = impl_->group_count();
+  if (groups == 0) return;
+  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, impl_->commands.id());
+  impl_->multi_draw(impl_->several, 1, groups);
+  impl_->multi_draw(impl_->single, 1 + groups, groups);
+}
+
+const gl::Texture& PatternSelection::cut() const {
+  return impl_->cut;
+}
+
+std::uint64_t PatternSelection::triangle_count() const {
+  const std::size_t groups = impl_->group_count();
+  std::vector<std::array<std::uint32_t, kCommandUints>> commands(1 + 2 * groups);
+  gl::read_buffer(impl_->commands.id(), 0, std::as_writable_bytes(std::span(commands)));
+  // Instances are padded to whole ones; what the gaps hold is marked.
+  std::vector<std::uint32_t> entries(impl_->entry_capacity());
+  gl::read_buffer(impl_->keys.id(), 0, std::as_writable_bytes(std::span(entries)));
+  std::uint64_t count = commands[0][0] / 3;
+  for (std::size_t group = 0; group < groups; ++group) {
+    const PatternDraw& draw = impl_->patterns->draws()[group / 2 + 1];
+    const auto& command = commands[1 + (draw.faces_an_instance > 1 ? 0 : groups) + group];
+    const std::uint64_t faces = std::uint64_t{command[1]} * draw.faces_an_instance;
+    const std::uint64_t first = std::uint64_t{command[4]} * draw.faces_an_instance;
+    for (std::uint64_t i = first; i < first + faces; ++i)
+      count += entries[i] == 0xffffffffu ? 0 : draw.triangles;
+  }
+  return count;
+}
+
+std::size_t PatternSelection::bytes() const {
+  const Impl& impl = *impl_;
+  return 4 * (kFrameUints + impl.entry_capacity() + 3 * impl.capacity() + 2 * impl.capacity() / gl::kWorkgroupSize +
+              impl.sort_blocks() * impl.group_count() + (1 + 2 * impl.group_count()) * kCommandUints);
+}
+
+unsigned PatternSelection::entries_buffer() const {
+  return impl_->keys.id();
+}
+unsigned PatternSelection::commands_buffer() const {
+  return impl_->commands.id();
+}
+unsigned PatternSelection::lists_buffer() const {
+  return impl_->lists.id();
+}
+unsigned PatternSelection::frame_buffer() const {
+  return impl_->frame.id();
+}
+std::size_t PatternSelection::group_count() const {
+  return impl_->group_count();
+}
+
+}  // namespace limn
