@@ -102,7 +102,6 @@ void main() {
 #else
   share = shares[edge];
 #endif
-  float level = share * (tolerance_px > 0.0 ? needed_level(view, edge, view_numbers.x) : float(max_level));
-  uint own = uint(floor(level * float(kLevelOne) + 0.5));
-  levels[e] = own;
+  float needed = tolerance_px > 0.0 ? needed_level(view, edge, view_numbers.x) : float(max_level);
+  levels[e] = uint(floor(double(share) * double(needed) * double(kLevelOne) + 0.5lf));  // quantized_level()
 }

@@ -42,10 +42,39 @@ TEST(EdgeLevels, AreTheMaximalLevelTimesTheSilhouetteness) {
   const std::vector<float> alpha = edge_silhouetteness(torus.mesh, torus.topology, torus.normals, view.eye);
   std::size_t between = 0;
   for (std::size_t e = 0; e < levels.size(); ++e) {
-    EXPECT_EQ(levels[e], static_cast<float>(4.0 * double{alpha[e]}));
+    EXPECT_EQ(levels[e], quantized_level(4.0 * double{alpha[e]}));
     between += levels[e] > 0 && levels[e] < 4;
   }
   EXPECT_GT(between, 20u);
+}
+
+TEST(EdgeLevels, AreMultiplesOfTheirUnitWhateverTheCriterion) {
+  const Levelled knot(shape(Shape::kKnot, 3000));
+  const View view{{Vec3(1, 2, 6), false}, 800};
+  std::size_t between = 0;
+  for (const float pixels : {0.0f, 0.5f}) {
+    for (const Criterion criterion : {Criterion::kSilhouette, Criterion::kDistance, Criterion::kCurvature}) {
+      const LevelOptions options{.criterion = criterion, .max_level = 3, .pixels = pixels};
+      for (const float level : knot.levels(view, options).value()) {
+        const float units = level / kLevelUnit;
+        EXPECT_EQ(units, std::floor(units));
+        between += level > 0.0f && level != std::floor(level);
+      }
+    }
+  }
+  EXPECT_GT(between, 1000u);
+}
+
+TEST(QuantizedLevel, IsTheNearestMultipleAndTheUpperOfTwo) {
+  Random random(12);
+  for (int n = 0; n < 10000; ++n) {
+    const double level = random.uniform(0.0, kMaxLevel);
+    EXPECT_LE(std::abs(double{quantized_level(level)} - level), 0.5 * double{kLevelUnit});
+  }
+  EXPECT_EQ(quantized_level(0.0), 0.0f);
+  EXPECT_EQ(quantized_level(kMaxLevel), 8.0f);
+  EXPECT_EQ(quantized_level(2.5 * double{kLevelUnit}), 3.0f * kLevelUnit);
+  EXPECT_EQ(quantized_level(0.49 * double{kLevelUnit}), 0.0f);
 }
 
 TEST(EdgeLevels, ByPixelsBringTheCurveWithinTheToleranceAtUniformCriterion) {
@@ -96,7 +125,7 @@ TEST(EdgeLevels, ByDistanceFallWithTheLogarithmOfIt) {
     const Edge& edge = strip_levels.topology.edges[e];
     const float distance = glm::length((strip.positions[edge.v[0]] + strip.positions[edge.v[1]]) * 0.5f);
     const double expected = distance <= 1 ? 4 : distance >= 16 ? 0 : 4 - std::log2(double{distance});
-    EXPECT_NEAR(levels[e], expected, 1e-5);
+    EXPECT_NEAR(levels[e], expected, 1e-5 + 0.5 * double{kLevelUnit});
   }
 }
 

@@ -117,14 +117,14 @@ void AttributeTessellator<T>::fill_edge(EdgeId id) {
 }
 
 template <class T>
-void AttributeTessellator<T>::fill_interior(FaceId face, const Grid& grid) {
+void AttributeTessellator<T>::fill_interior(FaceId face, std::span<const PatternVertex> points) {
   if (empty()) return;
   const InsideFace<T> field = inside_face(mesh_, input_, face);
-  const float unit = 1.0f / static_cast<float>(grid.segments());
-  for (std::size_t n = 0; n < grid.interior.size(); ++n) {
-    const GridVertex& g = grid.vertices[grid.interior[n]];
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const PatternVertex& p = points[n];
+    const float unit = 1.0f / static_cast<float>(1u << p.level);
     output_.values[interior(face, n)] =
-        field.at(static_cast<float>(g.i) * unit, static_cast<float>(g.j) * unit, static_cast<float>(g.k) * unit);
+        field.at(static_cast<float>(p.i()) * unit, static_cast<float>(p.j) * unit, static_cast<float>(p.k) * unit);
   }
 }
 

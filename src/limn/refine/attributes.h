@@ -6,8 +6,8 @@
 
 #include "limn/mesh/mesh.h"
 #include "limn/mesh/topology.h"
-#include "limn/refine/grid.h"
 #include "limn/refine/patch.h"
+#include "limn/refine/patterns/pattern.h"
 
 namespace limn {
 
@@ -29,7 +29,8 @@ class AttributeTessellator {
   bool empty() const { return input_.empty(); }
 
   void fill_edge(EdgeId edge);
-  void fill_interior(FaceId face, const Grid& grid);
+  /// \param points  the face's vertices inside, by their weights at its corners
+  void fill_interior(FaceId face, std::span<const PatternVertex> points);
 
   /// Output index of corner c of the face, of the point q segments of 2^t along its side c (0 < q < 2^t), of its n-th
   /// interior vertex.

@@ -144,6 +144,10 @@ Result<std::vector<float>> edge_shares(const Mesh& mesh, const Topology& topolog
   return share_of(mesh, topology, face_normals, view, options);
 }
 
+float quantized_level(double level) {
+  return static_cast<float>(std::floor(level / double{kLevelUnit} + 0.5)) * kLevelUnit;
+}
+
 Result<std::vector<float>> edge_levels(const Mesh& mesh, const Topology& topology, std::span<const Vec3> face_normals,
                                        std::span<const EdgeCurve> curves, const View& view,
                                        const LevelOptions& options) {
@@ -153,10 +157,10 @@ Result<std::vector<float>> edge_levels(const Mesh& mesh, const Topology& topolog
   const std::vector<float>& share = *shares;
   const double max_level = options.max_level;
   return per_edge(topology, [&](std::size_t e) {
-    if (options.pixels == 0.0f) return max_level * double{share[e]};
+    if (options.pixels == 0.0f) return double{quantized_level(max_level * double{share[e]})};
     const double stray = deviation_px(mesh, topology.edges[e], curves[e], view);
     const double needed = stray > 0.0 ? 0.5 * std::log2(stray / double{options.pixels}) : 0.0;
-    return double{share[e]} * std::clamp(needed, 0.0, max_level);
+    return double{quantized_level(double{share[e]} * std::clamp(needed, 0.0, max_level))};
   });
 }
 

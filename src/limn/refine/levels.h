@@ -25,8 +25,12 @@ enum class Criterion {
 /// The deepest level anything here takes: 2^8 segments an edge.
 inline constexpr int kMaxLevel = 8;
 
-/// Levels are multiples of it, so that every device finds the same.
-inline constexpr float kLevelUnit = 1.0f / 4096.0f;
+/// Levels are multiples of this, so that whoever computes them can agree exactly (docs/levels.md).
+inline constexpr float kLevelUnit = 1.0f / 4096;
+
+/// The nearest multiple of kLevelUnit, the larger of two that are as near: floor(4096 s + ½) / 4096.
+/// \pre level >= 0
+float quantized_level(double level);
 
 /// The turn along an edge from which Criterion::kCurvature refines fully: 45°.
 inline constexpr float kFullTurn_rad = 0.78539816f;
@@ -47,7 +51,7 @@ struct LevelOptions {
 
 /// The geometric refinement level of every edge, once an edge and never a triangle, so that neighbours agree.
 ///
-/// Real numbers in [0, max_level]. \param face_normals  face_normals() of the mesh
+/// Multiples of kLevelUnit in [0, max_level]. \param face_normals  face_normals() of the mesh
 /// Cost: one pass over the edges (kCurvature: and one over the faces). Same bits for any number of threads.
 /// Errors: kInvalidArgument for options out of range, kDistance without a perspective eye, or pixels without a scale;
 /// kUnsuitable for kTags without tags.

@@ -30,7 +30,7 @@ Result<Refiner> Refiner::create(Mesh mesh, const RefineOptions& options) {
   }
   Refiner refiner;
   refiner.mesh_ = std::move(mesh);
-  refiner.options_ = {options.blend, options.center, options.max_triangles, options.progress};
+  refiner.options_ = {options.blend, options.center, options.family, options.max_triangles, options.progress};
   if (!report(options.progress, "topology", 0.0)) return fail(ErrorCode::kCancelled, "cancelled");
   refiner.topology_ = build_topology(refiner.mesh_);
   if (refiner.topology_.edges.empty()) {

@@ -15,6 +15,7 @@ struct RefineOptions {
   LevelOptions levels{};
   Blend blend = Blend::kSurplus;
   CenterRule center = CenterRule::kPn;
+  PatternFamily family = PatternFamily::kNested;
   /// Normals are computed, split at edges sharper than this, when the mesh brings none; NaN-free, in [0, π].
   float crease_angle_rad = 1.0471976f;
   bool recompute_normals = false;  ///< even when the mesh brings some

@@ -4,11 +4,13 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <memory>
 #include <utility>
 
 #include "limn/base/parallel.h"
 #include "limn/refine/attributes.h"
 #include "limn/refine/grid.h"
+#include "limn/refine/patterns/table.h"
 
 namespace limn {
 namespace {
@@ -17,8 +19,28 @@ constexpr std::size_t kFaceGrain = 512;
 constexpr std::size_t kEdgeGrain = 2048;
 constexpr std::size_t kFacesPerReport = 1 << 17;
 
+/// The patterns that occur, each made once.
+class PatternCache {
+ public:
+  explicit PatternCache(PatternFamily family) : family_(family), patterns_(pattern_count(family, kMaxPatternLevel)) {}
+
+  void prepare(std::uint32_t base) {
+    if (!patterns_[base]) patterns_[base] = std::make_unique<const Pattern>(find_pattern(family_, base));
+  }
+  /// \pre base was prepared
+  const Pattern& at(std::uint32_t base) const { return *patterns_[base]; }
+
+ private:
+  PatternFamily family_;
+  std::vector<std::unique_ptr<const Pattern>> patterns_;
+};
+
 /// How much of everything there will be, and where each edge's and face's share begins.
 struct Plan {
+  explicit Plan(PatternFamily family) : patterns(family) {}
+
+  PatternCache patterns;
+  std::vector<PatternChoice> choices;        ///< one a face
   std::vector<std::uint8_t> face_level;      ///< m
   std::vector<std::uint8_t> edge_level;      ///< t
   std::vector<std::uint32_t> corner_vertex;  ///< welded vertex → output vertex
@@ -36,20 +58,26 @@ bool takes_part(const Topology& topology, std::size_t face) {
   return topology.face_edges[face][0] != kInvalidId;
 }
 
-void choose_levels(const Topology& topology, std::span<const float> levels, Plan& plan) {
+std::uint8_t rounded_up(float level) {
+  return static_cast<std::uint8_t>(std::ceil(level));
+}
+
+void choose_levels(const Topology& topology, std::span<const float> levels, PatternFamily family, Plan& plan) {
   plan.face_level.assign(topology.face_count(), 0);
   plan.edge_level.assign(topology.edge_count(), 0);
   parallel_for(topology.face_count(), kEdgeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       if (!takes_part(topology, f)) continue;
-      float largest = 0.0f;
       for (const EdgeId e : topology.face_edges[f])
-        largest = std::max(largest, levels[e]);
-      plan.face_level[f] = static_cast<std::uint8_t>(std::ceil(largest));
+        plan.face_level[f] = std::max(plan.face_level[f], rounded_up(levels[e]));
     }
   });
   parallel_for(topology.edge_count(), kEdgeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
+      if (family == PatternFamily::kMinimal) {
+        plan.edge_level[e] = rounded_up(levels[e]);
+        continue;
+      }
       for (const FaceId f : topology.edge_faces(static_cast<EdgeId>(e))) {
         plan.edge_level[e] = std::max(plan.edge_level[e], plan.face_level[f]);
       }
@@ -57,18 +85,23 @@ void choose_levels(const Topology& topology, std::span<const float> levels, Plan
   });
 }
 
-std::uint64_t triangles_of(const Topology& topology, const Plan& plan, std::size_t face) {
-  const int m = plan.face_level[face];
-  std::uint64_t count = std::uint64_t{1} << (2 * m);
-  // Each point a finer neighbour puts on a side cuts one triangle more.
-  for (const EdgeId e : topology.face_edges[face])
-    count += (1u << plan.edge_level[e]) - (1u << m);
-  return count;
+void choose_patterns(const Topology& topology, PatternFamily family, Plan& plan) {
+  plan.choices.resize(topology.face_count());
+  parallel_for(topology.face_count(), kEdgeGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      if (!takes_part(topology, f)) continue;
+      PatternConfig config{plan.face_level[f], {}};
+      for (std::size_t c = 0; c < 3; ++c)
+        config.sides[c] = plan.edge_level[topology.face_edges[f][c]];
+      plan.choices[f] = choose_pattern(family, config);
+    }
+  });
 }
 
-Plan make_plan(const Topology& topology, std::span<const float> levels) {
-  Plan plan;
-  choose_levels(topology, levels, plan);
+Plan make_plan(const Topology& topology, std::span<const float> levels, PatternFamily family) {
+  Plan plan(family);
+  choose_levels(topology, levels, family, plan);
+  choose_patterns(topology, family, plan);
   plan.corner_vertex.assign(topology.weld.size(), kInvalidId);
   plan.face_vertices.assign(topology.face_count() + 1, 0);
   plan.triangles.assign(topology.face_count() + 1, 0);
@@ -76,9 +109,10 @@ Plan make_plan(const Topology& topology, std::span<const float> levels) {
     plan.face_vertices[f + 1] = plan.face_vertices[f];
     plan.triangles[f + 1] = plan.triangles[f];
     if (!takes_part(topology, f)) continue;
-    const std::uint64_t n = std::uint64_t{1} << plan.face_level[f];
-    plan.face_vertices[f + 1] += n > 1 ? (n - 1) * (n - 2) / 2 : 0;
-    plan.triangles[f + 1] += triangles_of(topology, plan, f);
+    plan.patterns.prepare(plan.choices[f].base);
+    const Pattern& pattern = plan.patterns.at(plan.choices[f].base);
+    plan.face_vertices[f + 1] += pattern.vertices.size() - pattern.border();
+    plan.triangles[f + 1] += pattern.triangles.size();
     for (const VertexId v : topology.faces[f])
       plan.corner_vertex[v] = 0;
   }
@@ -97,13 +131,6 @@ struct Corner {
   std::uint32_t position = 0, normal = 0, uv = 0, color = 0;
 };
 
-/// Points that a finer neighbour has put between the ends of a border triangle's side.
-struct Side {
-  int c = 0;      ///< which side of the face
-  int first = 0;  ///< at its first end, in segments of the edge
-  int count = 1;  ///< segments; 1: none were put
-};
-
 class Tessellator {
  public:
   Tessellator(const Mesh& mesh, const Topology& topology, std::span<const EdgeCurve> curves,
@@ -114,8 +141,10 @@ class Tessellator {
 
  private:
   struct Scratch {
-    std::vector<Vec3> patch_points, surface_points;
-    std::vector<Corner> corners;
+    std::vector<Vec3> patch_points, surface_points;  ///< at the vertices of the face's grid
+    std::vector<Vec3> side_curve, side_surface;      ///< along one side
+    std::vector<Corner> corners;                     ///< at the vertices of the face's pattern
+    std::vector<PatternVertex> inside;               ///< the pattern's vertices inside, by their weights on the face
   };
   struct Attributes {
     AttributeTessellator<Vec3> normals;
@@ -126,11 +155,12 @@ class Tessellator {
   void place_corners();
   void fill_edge(EdgeId edge, std::vector<Vec3>& curve, std::vector<Vec3>& surface);
   void fill_face(FaceId face, Scratch& scratch);
-  void sample_face(FaceId face, const Grid& grid, Scratch& scratch);
-  void name_corners(FaceId face, const Grid& grid, std::vector<Corner>& corners) const;
+  void name_corners(FaceId face, const Pattern& pattern, std::vector<Corner>& corners) const;
+  void sample_side(FaceId face, int c, const Grid& grid, Scratch& scratch) const;
+  void sample_inside(FaceId face, const Pattern& pattern, Scratch& scratch);
   Corner corner_of_face(FaceId face, int c) const;
   Corner corner_on_side(FaceId face, int c, int q) const;
-  void cut(FaceId face, std::uint64_t& out, const Corner (&p)[3], const Side (&sides)[3]);
+  Corner corner_inside(FaceId face, std::size_t n) const;
   void put(std::uint64_t out, FaceId face, const Corner& a, const Corner& b, const Corner& c);
 
   const Mesh& mesh_;
@@ -241,95 +271,100 @@ Corner Tessellator::corner_on_side(FaceId face, int c, int q) const {
   return corner;
 }
 
-/// The output corner of every grid vertex.
-void Tessellator::name_corners(FaceId face, const Grid& grid, std::vector<Corner>& corners) const {
-  const int n = grid.segments();
-  corners.resize(grid.vertices.size());
-  for (int c = 0; c < 3; ++c) {
-    const EdgeId id = topology_.face_edges[face][static_cast<std::size_t>(c)];
-    const int step = 1 << (plan_.edge_level[id] - grid.level);
-    for (int q = 0; q < n; ++q)
-      corners[grid.on_side(c, q)] = corner_on_side(face, c, q * step);
+/// The n-th of the pattern's points inside.
+Corner Tessellator::corner_inside(FaceId face, std::size_t n) const {
+  Corner corner;
+  corner.position = static_cast<std::uint32_t>(plan_.face_base() + plan_.face_vertices[face] + n);
+  if (!attributes_.normals.empty()) corner.normal = attributes_.normals.interior(face, n);
+  if (!attributes_.uvs.empty()) corner.uv = attributes_.uvs.interior(face, n);
+  if (!attributes_.colors.empty()) corner.color = attributes_.colors.interior(face, n);
+  return corner;
+}
+
+/// The output corner of every vertex of the face's pattern.
+void Tessellator::name_corners(FaceId face, const Pattern& pattern, std::vector<Corner>& corners) const {
+  const PatternChoice& choice = plan_.choices[face];
+  const std::uint8_t* const corner_of = kCornerOf[choice.permutation];
+  corners.clear();
+  for (int b = 0; b < 3; ++b)
+    corners.push_back(corner_of_face(face, corner_of[b]));
+  for (int b = 0; b < 3; ++b) {
+    const int n = 1 << pattern.config.sides[static_cast<std::size_t>(b)];
+    // A mirrored pattern's side runs against the face's, which starts where the pattern's ends.
+    const int c = choice.mirrored ? corner_of[(b + 1) % 3] : corner_of[b];
+    for (int q = 1; q < n; ++q)
+      corners.push_back(corner_on_side(face, c, choice.mirrored ? n - q : q));
   }
-  for (std::size_t i = 0; i < grid.interior.size(); ++i) {
-    Corner& corner = corners[grid.interior[i]];
-    corner.position = static_cast<std::uint32_t>(plan_.face_base() + plan_.face_vertices[face] + i);
-    if (!attributes_.normals.empty()) corner.normal = attributes_.normals.interior(face, i);
-    if (!attributes_.uvs.empty()) corner.uv = attributes_.uvs.interior(face, i);
-    if (!attributes_.colors.empty()) corner.color = attributes_.colors.interior(face, i);
+  for (std::size_t n = 0; n < pattern.vertices.size() - pattern.border(); ++n)
+    corners.push_back(corner_inside(face, n));
+}
+
+/// The face's grid along side c: the edge's own points where it has as many, else points between them.
+void Tessellator::sample_side(FaceId face, int c, const Grid& grid, Scratch& scratch) const {
+  const EdgeId id = topology_.face_edges[face][static_cast<std::size_t>(c)];
+  const Edge& edge = topology_.edges[id];
+  const int n = grid.segments();
+  const int t = plan_.edge_level[id];
+  scratch.side_curve.resize(static_cast<std::size_t>(n) + 1);
+  scratch.side_surface.resize(static_cast<std::size_t>(n) + 1);
+  if (t < grid.level) {
+    sample_edge(mesh_.positions[edge.v[0]], curves_[id], mesh_.positions[edge.v[1]], levels_[id], grid.level,
+                options_.blend, scratch.side_curve, scratch.side_surface);
+  } else {
+    const std::uint64_t inner = plan_.edge_vertices[id];
+    for (int q = 0; q <= n; ++q) {
+      const auto at = static_cast<std::size_t>(q);
+      scratch.side_curve[at] = scratch.side_surface[at] = mesh_.positions[edge.v[q == 0 ? 0 : 1]];
+      if (q == 0 || q == n) continue;
+      const std::uint64_t k = inner + (static_cast<std::uint64_t>(q) << (t - grid.level)) - 1;
+      scratch.side_curve[at] = edge_curve_points_[k];
+      scratch.side_surface[at] = out_.mesh.positions[plan_.edge_base() + k];
+    }
+  }
+  const bool forward = topology_.runs_forward(face, c);
+  for (int q = 0; q < n; ++q) {
+    const auto at = static_cast<std::size_t>(forward ? q : n - q);
+    scratch.patch_points[grid.on_side(c, q)] = scratch.side_curve[at];
+    scratch.surface_points[grid.on_side(c, q)] = scratch.side_surface[at];
   }
 }
 
-/// Samples the patch inside, from the edges' points around it.
-void Tessellator::sample_face(FaceId face, const Grid& grid, Scratch& scratch) {
+/// Samples the face's grid from the edges' points around it, and keeps what the pattern uses.
+void Tessellator::sample_inside(FaceId face, const Pattern& pattern, Scratch& scratch) {
+  const Grid& grid = grids_[plan_.face_level[face]];
   scratch.patch_points.resize(grid.vertices.size());
   scratch.surface_points.resize(grid.vertices.size());
   float largest = 0.0f;
   for (int c = 0; c < 3; ++c) {
-    const EdgeId id = topology_.face_edges[face][static_cast<std::size_t>(c)];
-    largest = std::max(largest, levels_[id]);
-    for (int q = 0; q < grid.segments(); ++q) {
-      const std::uint32_t v = grid.on_side(c, q);
-      const std::uint32_t position = scratch.corners[v].position;
-      scratch.surface_points[v] = out_.mesh.positions[position];
-      scratch.patch_points[v] = q == 0 ? scratch.surface_points[v]
-                                       : edge_curve_points_[position - static_cast<std::uint32_t>(plan_.edge_base())];
-    }
+    largest = std::max(largest, levels_[topology_.face_edges[face][static_cast<std::size_t>(c)]]);
+    sample_side(face, c, grid, scratch);
   }
   sample_interior(grid, make_patch(mesh_, topology_, curves_, face, options_.center), largest, options_.blend,
                   scratch.patch_points, scratch.surface_points);
-  for (const std::uint32_t v : grid.interior) {
-    out_.mesh.positions[scratch.corners[v].position] = scratch.surface_points[v];
+  scratch.inside.clear();
+  for (std::size_t n = pattern.border(); n < pattern.vertices.size(); ++n) {
+    const PatternVertex v = on_face(pattern.vertices[n], plan_.choices[face].permutation);
+    const int finer = v.level - grid.level;
+    out_.mesh.positions[scratch.corners[n].position] = scratch.surface_points[grid.index(v.j >> finer, v.k >> finer)];
+    scratch.inside.push_back(v);
   }
-  attributes_.normals.fill_interior(face, grid);
-  attributes_.uvs.fill_interior(face, grid);
-  attributes_.colors.fill_interior(face, grid);
+  attributes_.normals.fill_interior(face, scratch.inside);
+  attributes_.uvs.fill_interior(face, scratch.inside);
+  attributes_.colors.fill_interior(face, scratch.inside);
 }
 
 void Tessellator::fill_face(FaceId face, Scratch& scratch) {
-  const Grid& grid = grids_[plan_.face_level[face]];
-  const int n = grid.segments();
-  name_corners(face, grid, scratch.corners);
-  if (!grid.interior.empty()) sample_face(face, grid, scratch);
-
-  int step[3];  // segments of each side's edge to one of the face's
-  for (std::size_t c = 0; c < 3; ++c) {
-    step[c] = 1 << (plan_.edge_level[topology_.face_edges[face][c]] - grid.level);
-  }
+  const PatternChoice& choice = plan_.choices[face];
+  const Pattern& pattern = plan_.patterns.at(choice.base);
+  name_corners(face, pattern, scratch.corners);
+  if (pattern.vertices.size() > pattern.border()) sample_inside(face, pattern, scratch);
   std::uint64_t out = plan_.triangles[face];
-  for (const auto& t : grid.triangles) {
-    const Corner p[3] = {scratch.corners[t[0]], scratch.corners[t[1]], scratch.corners[t[2]]};
-    const GridVertex& first = grid.vertices[t[0]];
-    const bool upward = grid.vertices[t[1]].k == first.k;
-    Side sides[3];
-    // Only triangles that point the way the whole does have sides on the border.
-    if (upward && first.k == 0) sides[0] = {0, first.j * step[0], step[0]};
-    if (upward && first.j + first.k == n - 1) sides[1] = {1, first.k * step[1], step[1]};
-    if (upward && first.j == 0) sides[2] = {2, (n - 1 - first.k) * step[2], step[2]};
-    cut(face, out, p, sides);
+  for (const auto& [a, b, c] : pattern.triangles) {
+    const Corner& second = scratch.corners[choice.mirrored ? c : b];
+    const Corner& third = scratch.corners[choice.mirrored ? b : c];
+    put(out++, face, scratch.corners[a], second, third);
   }
   assert(out == plan_.triangles[face + 1]);
-}
-
-/// Puts the triangle, fanned where its sides have points: from the corner opposite the first such side; what is left of
-/// the other two sides falls to the fan's first and last triangle.
-void Tessellator::cut(FaceId face, std::uint64_t& out, const Corner (&p)[3], const Side (&sides)[3]) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Side& side = sides[c];
-    if (side.count == 1) continue;
-    const Corner& opposite = p[(c + 2) % 3];
-    Corner from = p[c];
-    for (int i = 0; i < side.count; ++i) {
-      const bool last = i + 1 == side.count;
-      const Corner to = last ? p[(c + 1) % 3] : corner_on_side(face, side.c, side.first + i + 1);
-      const Corner part[3] = {from, to, opposite};
-      const Side part_sides[3] = {Side{}, last ? sides[(c + 1) % 3] : Side{}, i == 0 ? sides[(c + 2) % 3] : Side{}};
-      cut(face, out, part, part_sides);
-      from = to;
-    }
-    return;
-  }
-  put(out++, face, p[0], p[1], p[2]);
 }
 
 void Tessellator::put(std::uint64_t out, FaceId face, const Corner& a, const Corner& b, const Corner& c) {
@@ -350,7 +385,7 @@ Result<Refinement> tessellate(const Mesh& mesh, const Topology& topology, std::s
                               std::span<const float> levels, const TessellateOptions& options) {
   assert(!mesh.normals.empty());
   assert(curves.size() == topology.edge_count() && levels.size() == topology.edge_count());
-  Plan plan = make_plan(topology, levels);
+  Plan plan = make_plan(topology, levels, options.family);
   // Values of attributes are numbered with 32 bits: three a triangle of the input and three of the result at most.
   const std::uint64_t most = std::min<std::uint64_t>(options.max_triangles, kInvalidId / 6);
   if (plan.triangles.back() > most) {

@@ -68,9 +68,15 @@ struct PatternVertex {
   std::uint16_t j = 0, k = 0;
   std::uint8_t level = 0;  ///< that of the pattern's finest side
 
-  std::uint16_t i() const { return static_cast<std::uint16_t>((1u << level) - j - k); }
+  constexpr std::uint16_t i() const { return static_cast<std::uint16_t>((1u << level) - j - k); }
   bool operator==(const PatternVertex&) const = default;
 };
+
+/// Where a pattern's vertex lies on a face that uses it with this permutation: the weights at the face's corners.
+constexpr PatternVertex on_face(const PatternVertex& v, std::uint8_t permutation) {
+  const std::uint16_t weights[3] = {v.i(), v.j, v.k};
+  return {weights[kWeightOf[permutation][1]], weights[kWeightOf[permutation][2]], v.level};
+}
 
 /// The four bytes in which a device stores a vertex: j in bits 0–9, k in bits 10–19, level in bits 20–23.
 constexpr std::uint32_t pack(const PatternVertex& v) {

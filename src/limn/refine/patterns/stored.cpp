@@ -21,4 +21,19 @@ PatternTable pattern_table(PatternFamily family, int max_level) {
   return table;
 }
 
+Pattern find_pattern(PatternFamily family, std::uint32_t base) {
+  const PatternConfig config = pattern_config(family, base);
+  if (config.sides[0] > kStoredPatternLevel) return make_pattern(family, config);
+  const StoredPatterns stored = stored_patterns(family);
+  const PatternRange& range = stored.ranges[base];
+  Pattern pattern;
+  pattern.config = config;
+  pattern.vertices.reserve(range.vertex_count);
+  for (const std::uint32_t word : stored.vertices.subspan(range.first_vertex, range.vertex_count))
+    pattern.vertices.push_back(unpack(word));
+  const auto triangles = stored.triangles.subspan(range.first_triangle, range.triangle_count);
+  pattern.triangles.assign(triangles.begin(), triangles.end());
+  return pattern;
+}
+
 }  // namespace limn

@@ -120,7 +120,7 @@ void EdgeLevelPass::give(std::span<const float> levels) {
     const std::size_t count = impl_->scene->object_of(i).topology().edge_count();
     assert(next + count <= levels.size());
     for (std::size_t e = 0; e < count; ++e, ++next) {
-      words[impl_->scene->first_edge(i) + e] = static_cast<std::uint32_t>(std::floor(levels[next] / kLevelUnit + 0.5f));
+      words[impl_->scene->first_edge(i) + e] = static_cast<std::uint32_t>(quantized_level(levels[next]) / kLevelUnit);
     }
   }
   gl::write_storage(impl_->levels, std::as_bytes(std::span(words)));
