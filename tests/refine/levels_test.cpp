@@ -55,7 +55,8 @@ TEST(EdgeLevels, AreMultiplesOfTheirUnitWhateverTheCriterion) {
   for (const float pixels : {0.0f, 0.5f}) {
     for (const Criterion criterion : {Criterion::kSilhouette, Criterion::kDistance, Criterion::kCurvature}) {
       const LevelOptions options{.criterion = criterion, .max_level = 3, .pixels = pixels};
-      for (const float level : knot.levels(view, options).value()) {
+      const std::vector<float> levels = knot.levels(view, options).value();
+      for (const float level : levels) {
         const float units = level / kLevelUnit;
         EXPECT_EQ(units, std::floor(units));
         between += level > 0.0f && level != std::floor(level);
