@@ -23,7 +23,8 @@ struct CornerAttribute {
   bool empty() const { return values.empty(); }
 };
 
-/// What a renderer needs to know of a surface; read from and written to glTF, the base colour also from MTL.
+/// What a renderer needs to know of a surface; read from and written to glTF, and MTL but for `double_sided` and
+/// `normal_scale`.
 struct Material {
   std::string name;
   Vec4 base_color{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear, as in glTF

@@ -31,7 +31,7 @@ struct RenderOptions {
   float line_width_px = 1.5f;  ///< of `segments`, > 0
 };
 
-/// Draws a lit picture of a mesh: a head light, a sky, base colours and base colour textures.
+/// Draws a lit picture of a mesh: a head light, a sky, base colours and their pictures, normal maps.
 ///
 /// \param segments  drawn over it where not hidden by it (a small depth bias in their favour), for outlines and levels
 /// Mesh normals are used where there are some, else face normals; both sides are lit. Vertex colours multiply the base
@@ -40,9 +40,10 @@ struct RenderOptions {
 /// Same device and driver, same bits. Leaves the context current and its GL state changed.
 /// \pre indices in range, counts consistent (read_mesh sees to that); camera.eye != camera.target
 /// Cost: memory on the device for the mesh (one value a vertex; three times the faces where corners have indices of
-/// their own) and 8 bytes a sample; programs are compiled on first use of a context.
-/// Errors: kInvalidArgument (sizes outside 1 … 16384, samples, line width, background), kUnsuitable when a material's
-/// picture cannot be decoded, kNoGraphics when the device cannot hold the picture or the mesh.
+/// their own), its materials' pictures (docs/rendering.md says how sizes are matched) and 8 bytes a sample; programs
+/// are compiled on first use of a context. Errors: kInvalidArgument (sizes outside 1 … 16384, samples, line width,
+/// background), kUnsuitable when a material's picture cannot be decoded, kNoGraphics when the device cannot hold the
+/// picture or the mesh.
 Result<Image> render(gl::Context& context, const Mesh& mesh, const Camera& camera, const RenderOptions& options = {},
                      std::span<const Segment3> segments = {});
 
