@@ -20,5 +20,9 @@ void collapse_vertex() {
 #ifndef POSITIONS_ONLY
   emit_surface(eye, vec3(0.0), vec2(0.0), vec4(0.0), 0u);
 #endif
+#ifdef CAPTURED
+  captured_position = vec3(0.0);
+  captured_source = uvec2(0xfffffffeu, 0u);
+#endif
   gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }

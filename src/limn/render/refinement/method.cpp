@@ -1,5 +1,7 @@
 #include "limn/render/refinement/method.h"
 
+#include <algorithm>
+
 namespace limn {
 
 Result<const gl::Program*> surface_program(const RefinementScene& scene, const SurfaceProgram& stages,
@@ -26,9 +28,25 @@ Result<const gl::Program*> surface_program(const RefinementScene& scene, const S
   }
   const auto program = scene.context().program(files);
   if (!program) return tl::unexpected(program.error());
-  (*program)->set("flat_normals", pass.flat_normals ? 1 : 0);
-  (*program)->set("draw_faces", 1);
   return *program;
+}
+
+Result<const gl::Program*> SurfacePrograms::use(const RefinementScene& scene, const SurfacePass& pass) {
+  const auto found = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
+    return made.stage == pass.stage && made.flat_normals == pass.flat_normals && made.wireframe == pass.wireframe &&
+           made.captured == pass.captured;
+  });
+  const gl::Program* program = found != made_.end() ? found->program : nullptr;
+  if (program == nullptr) {
+    const auto made = surface_program(scene, stages_, pass);
+    if (!made) return tl::unexpected(made.error());
+    program = *made;
+    made_.push_back({pass.stage, pass.flat_normals, pass.wireframe, pass.captured, program});
+  }
+  program->use();
+  program->set("flat_normals", pass.flat_normals ? 1 : 0);
+  program->set("draw_faces", 1);
+  return program;
 }
 
 }  // namespace limn

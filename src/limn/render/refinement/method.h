@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "limn/render/refinement/scene.h"
@@ -19,10 +21,11 @@ struct SurfacePass {
   SurfaceStage stage = SurfaceStage::kShaded;
   bool flat_normals = false;
   bool wireframe = false;  ///< kShaded only
-  /// What transform feedback shall catch (refine_emit.glsl): the caller begins and ends it. Empty: nothing.
+  /// What transform feedback shall catch (refine_emit.glsl), and what begins and ends it around each draw, once its
+  /// program is in use. Empty: nothing.
   std::vector<std::string> captured = {};
-
-  bool operator==(const SurfacePass&) const = default;
+  std::function<void()> before_draw = {};
+  std::function<void()> after_draw = {};
 };
 
 /// A way to draw a scene refined. A frame is refine() once, then draw() for each view of it: the camera and what casts
@@ -55,5 +58,32 @@ struct SurfaceProgram {
 };
 Result<const gl::Program*> surface_program(const RefinementScene& scene, const SurfaceProgram& stages,
                                            const SurfacePass& pass);
+
+/// A method's program for each kind of pass, made when first asked for and kept: a frame asks for it anew.
+class SurfacePrograms {
+ public:
+  explicit SurfacePrograms(SurfaceProgram stages) : stages_(std::move(stages)) {}
+
+  /// In use from now on. Errors: as surface_program().
+  Result<const gl::Program*> use(const RefinementScene& scene, const SurfacePass& pass);
+
+ private:
+  struct Made {
+    SurfaceStage stage;
+    bool flat_normals, wireframe;
+    std::vector<std::string> captured;
+    const gl::Program* program;
+  };
+  SurfaceProgram stages_;
+  std::vector<Made> made_;
+};
+
+/// Draws, with the pass's hooks around.
+template <class Draw>
+void draw_hooked(const SurfacePass& pass, const Draw& draw) {
+  if (pass.before_draw) pass.before_draw();
+  draw();
+  if (pass.after_draw) pass.after_draw();
+}
 
 }  // namespace limn

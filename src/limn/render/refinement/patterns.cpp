@@ -40,19 +40,16 @@ Result<void> PatternMethod::refine(const View& view) {
 }
 
 Result<void> PatternMethod::draw(const SurfacePass& pass) {
-  const auto coarse = surface_program(*scene_, {.vertex = "refine_coarse.vert.glsl"}, pass);
-  if (!coarse) return tl::unexpected(coarse.error());
-  const auto refined = surface_program(*scene_, {.vertex = "refine_pattern.vert.glsl"}, pass);
-  if (!refined) return tl::unexpected(refined.error());
   scene_->bind();
   gl::bind_texture(kLevelsUnit, levels_->texture());
   gl::bind_texture(kCutUnit, selection_->cut());
-  (*coarse)->use();
-  selection_->draw_coarse();
-  (*refined)->use();
+  if (auto coarse = coarse_programs_.use(*scene_, pass); !coarse) return tl::unexpected(coarse.error());
+  draw_hooked(pass, [&] { selection_->draw_coarse(); });
+  const auto refined = refined_programs_.use(*scene_, pass);
+  if (!refined) return tl::unexpected(refined.error());
   (*refined)->set("paper_blend", options_.blend == Blend::kPaper ? 1 : 0);
   (*refined)->set("mean_center", scene_->options().center == CenterRule::kMean ? 1 : 0);
-  selection_->draw_refined();
+  draw_hooked(pass, [&] { selection_->draw_refined(); });
   return {};
 }
 

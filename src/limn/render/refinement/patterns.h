@@ -46,6 +46,8 @@ class PatternMethod final : public RefinementMethod {
   std::unique_ptr<PatternBuffers> patterns_;  // where the selection finds them, wherever this object goes
   std::unique_ptr<EdgeLevelPass> levels_;
   std::unique_ptr<PatternSelection> selection_;
+  SurfacePrograms coarse_programs_{{.vertex = "refine_coarse.vert.glsl"}};
+  SurfacePrograms refined_programs_{{.vertex = "refine_pattern.vert.glsl"}};
 };
 
 }  // namespace limn
