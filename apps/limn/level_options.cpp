@@ -28,6 +28,8 @@ void add_level_options(OptionTable& table, LevelFlags& flags) {
   table.number("--wedge", "DEG", flags.wedge_deg, {0.0, 90.0, true, true}, "half the band's angle (default 20)");
   table.choice("--blend", flags.blend, {{"surplus", Blend::kSurplus}, {"paper", Blend::kPaper}},
                "between levels (default surplus)");
+  table.choice("--topology", flags.family, {{"nested", PatternFamily::kNested}, {"minimal", PatternFamily::kMinimal}},
+               "triangles of a face (default nested)");
   table.choice("--center", flags.center, {{"pn", CenterRule::kPn}, {"mean", CenterRule::kMean}},
                "a patch's middle point (default pn)");
   table.choice("--normals", flags.compute_normals, {{"file", false}, {"compute", true}},
@@ -61,6 +63,7 @@ RefineOptions refine_options(const LevelFlags& flags, const Progress& progress) 
   options.levels.far_distance = static_cast<float>(flags.far_distance);
   options.blend = flags.blend;
   options.center = flags.center;
+  options.family = flags.family;
   options.crease_angle_rad = static_cast<float>(flags.crease_deg * kRadians);
   options.recompute_normals = flags.compute_normals;
   options.progress = progress;

@@ -15,6 +15,7 @@ struct LevelFlags {
   Wedge::Rule wedge_rule = Wedge::Rule::kAngle;
   double wedge_deg = 20;
   Blend blend = Blend::kSurplus;
+  PatternFamily family = PatternFamily::kNested;
   CenterRule center = CenterRule::kPn;
   double crease_deg = 60;
   bool compute_normals = false;

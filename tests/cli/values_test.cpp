@@ -109,6 +109,7 @@ TEST_F(Values, RefuseWhatIsNoGate) {
 
 TEST_F(Values, RefuseWordsThatAreNoChoice) {
   expect_refused(kRefine, "--blend", {"", "Surplus", "both"});
+  expect_refused(kRefine, "--topology", {"", "Nested", "both"});
   expect_refused(kRender, "--samples", {"0", "2", "8"});
   expect_refused(kRender, "--method", {"fine"});
   expect_refused(kMake, "--format", {"xyz", "3ds"});

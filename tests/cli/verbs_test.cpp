@@ -87,6 +87,7 @@ TEST_F(Verbs, RefineKeepsAClosedMeshClosedAndMakesItFiner) {
            {"--view", "0,0", "--pixels", "0.2", "--size", "1920x1080", "--max-level", "5"},
            {"--view", "0,0", "--beta", "quarter"},
            {"--view", "0,0", "--wedge", "40", "--blend", "paper", "--center", "mean"},
+           {"--view", "0,0", "--topology", "minimal", "--max-level", "5"},
            {"--view", "0,0", "--normals", "compute", "--crease-angle", "80"},
            {"--eye", "0,0,2", "--criterion", "distance", "--near", "0.5", "--far", "4"},
            {"--criterion", "curvature"},
@@ -99,6 +100,14 @@ TEST_F(Verbs, RefineKeepsAClosedMeshClosedAndMakesItFiner) {
     EXPECT_EQ(info["closed"], true) << testing::PrintToString(options);
     EXPECT_EQ(info["faces"], done["triangles_out"]);
   }
+}
+
+TEST_F(Verbs, RefineNeedsFewerTrianglesInTheMinimalTopology) {
+  make("knot", "knot.ply", 1000);
+  const auto nested = limn.json({"refine", "knot.ply", "-o", "a.ply", "--view", "30,20", "--topology", "nested"});
+  const auto minimal = limn.json({"refine", "knot.ply", "-o", "b.ply", "--view", "30,20", "--topology", "minimal"});
+  EXPECT_EQ(nested["refined_faces"], minimal["refined_faces"]);
+  EXPECT_LT(minimal["triangles_out"].get<int>(), nested["triangles_out"].get<int>() * 2 / 3);
 }
 
 TEST_F(Verbs, RefineRefinesWhereItIsSeenFrom) {

@@ -15,6 +15,8 @@ namespace {
 
 /// Up to this level every pattern is laid out by itself.
 constexpr std::uint8_t kSmallLevel = 3;
+/// Points are moved about in patterns that have this many at most.
+constexpr std::size_t kMostPolished = 16;
 /// Points are tried on the grid of this level or the pattern's own, whichever is coarser.
 constexpr int kTrialLevel = 4;
 /// Cotangent of 35°: what a triangle's smallest angle falls short of it, in cotangents, is its cost, squared.
@@ -117,6 +119,7 @@ class Planner {
   void polish(Layout& layout) const;
 
  private:
+  Layout best_around(const Layout& layout, const PatternVertex& from) const;
   void add(Layout& layout, const PatternVertex& v) const {
     layout.mesh.insert(v);
     layout.inside.push_back(v);
@@ -164,38 +167,37 @@ void Planner::improve(Layout& layout, std::size_t most) const {
   }
 }
 
-/// Moves points, one by one, to neighbouring ones of the grid, or takes them away, while that helps.
-void Planner::polish(Layout& layout) const {
+/// The best layout with this point, and its mirror image, at one of the places around it or nowhere.
+Layout Planner::best_around(const Layout& layout, const PatternVertex& from) const {
+  constexpr int kReach = 2;
   const int n = 1 << sides_[0];
+  std::vector<PatternVertex> others;
+  for (const PatternVertex& v : layout.inside) {
+    if (v != from && v != mirrored(sides_, from)) others.push_back(v);
+  }
+  const Layout without = start(others);
+  Layout best = without;
+  for (int k = std::max(1, from.k - kReach); k <= from.k + kReach; ++k) {
+    for (int j = std::max(1, from.j - kReach); j <= from.j + kReach && j + k < n; ++j) {
+      const PatternVertex to{static_cast<std::uint16_t>(j), static_cast<std::uint16_t>(k), from.level};
+      if (has(without, to)) continue;
+      Layout trial = without;
+      add_both(trial, to);
+      trial.cost = cost(trial);
+      if (trial.cost < best.cost) best = std::move(trial);
+    }
+  }
+  return best;
+}
+
+/// Moves points, one by one, to others nearby on the grid, or takes them away, while that helps.
+void Planner::polish(Layout& layout) const {
   for (bool moved = true; moved;) {
     moved = false;
     for (std::size_t at = 0; at < layout.inside.size() && !moved; ++at) {
-      const PatternVertex from = layout.inside[at];
-      const PatternVertex twin = mirrored(sides_, from);
-      std::vector<PatternVertex> others;
-      for (const PatternVertex& v : layout.inside) {
-        if (v != from && v != twin) others.push_back(v);
-      }
-      const Layout without = start(others);
-      Layout best = layout;
-      if (without.cost < best.cost) best = without;
-      for (int dk = -2; dk <= 2; ++dk) {
-        for (int dj = -2; dj <= 2; ++dj) {
-          const int j = from.j + dj;
-          const int k = from.k + dk;
-          if (j <= 0 || k <= 0 || j + k >= n) continue;
-          const PatternVertex to{static_cast<std::uint16_t>(j), static_cast<std::uint16_t>(k), from.level};
-          if (has(without, to)) continue;
-          Layout trial = without;
-          add_both(trial, to);
-          trial.cost = cost(trial);
-          if (trial.cost < best.cost) best = std::move(trial);
-        }
-      }
-      if (best.cost < layout.cost) {
-        layout = std::move(best);
-        moved = true;
-      }
+      Layout best = best_around(layout, layout.inside[at]);
+      moved = best.cost < layout.cost;
+      if (moved) layout = std::move(best);
     }
   }
 }
@@ -223,9 +225,8 @@ Pattern make_minimal_pattern(const std::array<std::uint8_t, 3>& sides) {
   const std::size_t border = pattern_border({0, sides}).vertices.size();
   Layout layout = planner.start(i > kSmallLevel && i >= j + 2 ? inherited(sides) : std::vector<PatternVertex>());
   planner.improve(layout, layout.inside.size() + border / 4);
-  if (layout.inside.size() <= 16) planner.polish(layout);
-  std::vector<PatternTriangle> triangles = layout.mesh.triangles();
-  return in_order(sides, layout.mesh.vertices(), std::move(triangles));
+  if (layout.inside.size() <= kMostPolished) planner.polish(layout);
+  return in_order(sides, layout.mesh.vertices(), layout.mesh.triangles());
 }
 
 }  // namespace limn
