@@ -6,7 +6,8 @@
 #include "refine_choice.glsl"
 #include "refine_budget.glsl"
 
-layout(std430, binding = 7) readonly buffer Draws { uint draws[]; };  // PatternDraw of refine_offsets.comp.glsl
+layout(std430, binding = 6) buffer Commands { uint commands[]; };
+#include "refine_groups.glsl"
 
 shared uint sums[kSteps];
 
@@ -20,7 +21,7 @@ void main() {
     if (edges.x != kInvalid) {
       uvec3 words = edge_words(range, edges);
       for (uint step = 0u; step < kSteps; ++step)
-        atomicAdd(sums[step], draws[6u * choose_pattern_at(words, cut_of(step)).base + 5u]);
+        atomicAdd(sums[step], draws[choose_pattern_at(words, cut_of(step)).base].triangles);
     }
   }
   barrier();

@@ -1,45 +1,40 @@
 #version 450 core
-// Counting sort, 2 of 3, one workgroup: where each block's faces of each group go, and each group's draw command. Groups begin
-// at multiples of four, the most faces that share an instance; what is left free there is marked.
+// Counting sort, 2 of 3, one workgroup: where each block's faces of each group go, and each group's draw commands. Groups begin
+// at multiples of the most faces that share an instance; what is left free there is marked.
 
 #include "refine_selection.glsl"
 #include "scan.glsl"
 
-layout(std430, binding = 6) writeonly buffer Commands { uint commands[]; };
-struct PatternDraw {
-  uint index_count;  // of all faces of an instance
-  uint first_index[2];
-  uint base_vertex;
-  uint faces_an_instance;  // 4 or 1
-  uint triangles;          // of one face
-};
-layout(std430, binding = 7) readonly buffer Draws { PatternDraw draws[]; };
+layout(std430, binding = 6) buffer Commands { uint commands[]; };
+#include "refine_groups.glsl"
 
-const uint kNoFace = 0xffffffffu;
-const uint kCommandUints = 5u;
-const uint kFirstCommand = 5u;  // behind that of the unrefined triangles
+void write_command(uint at, uint index_count, uint instances, uint first_index, uint base_vertex, uint base_instance) {
+  commands[at] = index_count;
+  commands[at + 1u] = instances;
+  commands[at + 2u] = first_index;
+  commands[at + 3u] = base_vertex;
+  commands[at + 4u] = base_instance;
+}
 
-shared uint group_totals[kWorkgroupSize];
-
+/// Three commands a group, one for each way to feed instances: four faces each, one, or batches of stored vertices.
 void write_commands(uint group, uint start, uint total) {
   PatternDraw d = draws[(group + 2u) / 2u];
   bool several = d.faces_an_instance > 1u;
-  // Two commands a group, one for each way to feed instances; the other draws none.
-  for (uint kind = 0u; kind < 2u; ++kind) {
-    uint at = kFirstCommand + (kind * group_count + group) * kCommandUints;
-    bool drawn = (kind == 0u) == several;
-    commands[at] = d.index_count;
-    commands[at + 1u] = drawn ? (total + d.faces_an_instance - 1u) / d.faces_an_instance : 0u;
-    commands[at + 2u] = d.first_index[group & 1u];
-    commands[at + 3u] = d.base_vertex;
-    commands[at + 4u] = start / d.faces_an_instance;
-  }
+  uint instances = (total + d.faces_an_instance - 1u) / d.faces_an_instance;
+  uint at = kFirstCommand + group * kCommandUints;
+  uint stride = group_count * kCommandUints;
+  write_command(at, d.index_count, several ? instances : 0u, d.first_index[group & 1u], d.base_vertex, start / d.faces_an_instance);
+  write_command(at + stride, d.index_count, several ? 0u : instances, d.first_index[group & 1u], d.base_vertex, start);
+  write_command(at + 2u * stride, d.batch_index_count, (total + d.batch - 1u) / d.batch, d.batch_first_index[group & 1u], 0u, start);
 }
+
+uint padded(uint count) { return (count + kAlignment - 1u) & ~(kAlignment - 1u); }
 
 void main() {
   uint t = gl_LocalInvocationIndex;
   uint block_count = frame[7];
-  uint carried = 0u;
+  uint entries = 0u;
+  uint vertices = 0u;
   for (uint first = 0u; first < group_count; first += kWorkgroupSize) {
     uint group = first + t;
     uint total = 0u;
@@ -50,13 +45,22 @@ void main() {
       total += n;
     }
     uint all;
-    uint start = carried + exclusive_scan((total + 3u) & ~3u, all);
-    carried += all;
+    uint start = entries + exclusive_scan(padded(total), all);
+    entries += all;
+    uint vertex = vertices + exclusive_scan(padded(total) * draws[(min(group, group_count - 1u) + 2u) / 2u].vertices, all);
+    vertices += all;
     if (group >= group_count) continue;
-    for (uint i = start + total; i < start + ((total + 3u) & ~3u); ++i)
+    put_group(group, GroupRange(start, total, vertex));
+    for (uint i = start + total; i < start + padded(total); ++i)
       keys[i] = kNoFace;
     for (uint block = 0u; block < block_count; ++block)
       group_counts[block * group_count + group] += start;
     write_commands(group, start, total);
   }
+  if (t != 0u) return;
+  uint groups = (entries + kWorkgroupSize - 1u) / kWorkgroupSize;  // a dispatch over the sorted entries
+  frame[40] = min(groups, kWorkgroupsARow);
+  frame[41] = (groups + kWorkgroupsARow - 1u) / kWorkgroupsARow;
+  frame[42] = 1u;
+  frame[43] = entries;
 }

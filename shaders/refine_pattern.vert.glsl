@@ -28,7 +28,8 @@ void main() {
   uint face = entry & 0x0fffffffu;
   RefinedFace f = refined_face(face);
   vec3 point = face_point(f, ijk, n);
-  vec3 position = to_world(f.instance, vec4(point, 1.0));
+  Placement placement = placement_of(f.instance);
+  vec3 position = to_world(placement, vec4(point, 1.0));
 #ifdef CAPTURED
   captured_position = point;
   captured_source = uvec2(face, uint(ijk.y) | uint(ijk.z) << 12 | uint(n) << 24);
@@ -37,7 +38,7 @@ void main() {
   place_vertex(position);
 #else
   vec3 w = vec3(ijk) / float(1 << n);
-  emit_surface(position, to_world(f.instance, vec4(face_normal_at(f, w), 0.0)), face_uv_at(f, w), face_color_at(f, w),
-               material_of(f.vertices.x));
+  emit_surface(position, to_world(placement, vec4(interpolate_normal(normal_field_of(f), w), 0.0)), interpolate(corner_uvs(f), w),
+               interpolate(corner_colors(f), w), material_of(f.vertices.x));
 #endif
 }

@@ -54,13 +54,20 @@ uvec4 instance_faces(uint instance) { return instance_texel(instance, 4); }
 /// first edge of the instance, of its object, how many, first vertex of the object
 uvec4 instance_edges(uint instance) { return instance_texel(instance, 5); }
 
-/// A point (w = 1) or a direction (w = 0) of the instance's object in world space; the same bits wherever it is called.
-vec3 to_world(uint instance, vec4 p) {
-  vec4 x = uintBitsToFloat(instance_texel(instance, 0));
-  vec4 y = uintBitsToFloat(instance_texel(instance, 1));
-  vec4 z = uintBitsToFloat(instance_texel(instance, 2));
-  precise vec3 world = vec3(x.x * p.x + x.y * p.y + x.z * p.z + x.w * p.w,
-                            y.x * p.x + y.y * p.y + y.z * p.z + y.w * p.w,
-                            z.x * p.x + z.y * p.y + z.z * p.z + z.w * p.w);
+/// An instance's rows of object to world.
+struct Placement {
+  vec4 x, y, z;
+};
+
+Placement placement_of(uint instance) {
+  return Placement(uintBitsToFloat(instance_texel(instance, 0)), uintBitsToFloat(instance_texel(instance, 1)),
+                   uintBitsToFloat(instance_texel(instance, 2)));
+}
+
+/// A point (w = 1) or a direction (w = 0) of the object in world space; the same bits wherever it is called.
+vec3 to_world(Placement at, vec4 p) {
+  precise vec3 world = vec3(at.x.x * p.x + at.x.y * p.y + at.x.z * p.z + at.x.w * p.w,
+                            at.y.x * p.x + at.y.y * p.y + at.y.z * p.z + at.y.w * p.w,
+                            at.z.x * p.x + at.z.y * p.y + at.z.z * p.z + at.z.w * p.w);
   return world;
 }

@@ -59,23 +59,27 @@ vec3 face_point(RefinedFace f, ivec3 ijk, int n) {
   if (ijk.x == whole) return position_of(f.vertices.x);
   if (ijk.y == whole) return position_of(f.vertices.y);
   if (ijk.z == whole) return position_of(f.vertices.z);
-  if (ijk.x != 0 && ijk.y != 0 && ijk.z != 0) return interior_point(patch_of(f), f.levels, ijk, n);
+  if (ijk.x != 0 && ijk.y != 0 && ijk.z != 0) {
+    Patch b = patch_of(f);
+    return interior_point(b, patch_bend(b), f.levels, ijk, n);
+  }
   int c = ijk.z == 0 ? 0 : ijk.x == 0 ? 1 : 2;
   int along = c == 0 ? ijk.y : c == 1 ? ijk.z : ijk.x;
   bool reversed = (f.edges[c] & kReversed) != 0u;
   return edge_point(side_curve(f, c), reversed ? whole - along : along, n);
 }
 
-vec3 face_normal_at(RefinedFace f, vec3 w) {
-  vec3 p[3] = vec3[3](position_of(f.vertices.x), position_of(f.vertices.y), position_of(f.vertices.z));
-  vec3 n[3] = vec3[3](normal_of(f.vertices.x), normal_of(f.vertices.y), normal_of(f.vertices.z));
-  return interpolate_normal(p, n, w);
+NormalField normal_field_of(RefinedFace f) {
+  return normal_field(vec3[3](position_of(f.vertices.x), position_of(f.vertices.y), position_of(f.vertices.z)),
+                      vec3[3](normal_of(f.vertices.x), normal_of(f.vertices.y), normal_of(f.vertices.z)));
 }
 
-vec2 face_uv_at(RefinedFace f, vec3 w) {
-  return uv_of(f.vertices.x) * w.x + uv_of(f.vertices.y) * w.y + uv_of(f.vertices.z) * w.z;
+mat3x2 corner_uvs(RefinedFace f) {
+  return mat3x2(uv_of(f.vertices.x), uv_of(f.vertices.y), uv_of(f.vertices.z));
 }
+vec2 interpolate(mat3x2 values, vec3 w) { return values[0] * w.x + values[1] * w.y + values[2] * w.z; }
 
-vec4 face_color_at(RefinedFace f, vec3 w) {
-  return color_of(f.vertices.x) * w.x + color_of(f.vertices.y) * w.y + color_of(f.vertices.z) * w.z;
+mat3x4 corner_colors(RefinedFace f) {
+  return mat3x4(color_of(f.vertices.x), color_of(f.vertices.y), color_of(f.vertices.z));
 }
+vec4 interpolate(mat3x4 values, vec3 w) { return values[0] * w.x + values[1] * w.y + values[2] * w.z; }

@@ -18,8 +18,8 @@ void dispatch_items(std::size_t items) {
   dispatch((items + kWorkgroupSize - 1) / kWorkgroupSize);
 }
 
-void dispatch_indirect(const Buffer& command, std::size_t offset_bytes) {
-  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, command.id());
+void dispatch_indirect(unsigned command, std::size_t offset_bytes) {
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, command);
   glDispatchComputeIndirect(static_cast<GLintptr>(offset_bytes));
 }
 

@@ -19,7 +19,7 @@ void dispatch(std::size_t groups);
 void dispatch_items(std::size_t items);
 
 /// With the counts of workgroups that a shader wrote into a buffer.
-void dispatch_indirect(const Buffer& command, std::size_t offset_bytes);
+void dispatch_indirect(unsigned command, std::size_t offset_bytes);
 
 /// `layout(std430, binding = INDEX) buffer`
 void bind_storage(unsigned index, unsigned buffer);

@@ -148,7 +148,7 @@ struct Compactor::Impl {
     write->use();
     write->set("top_level", top);
     gl::bind_texture(0, pyramid);
-    gl::dispatch_indirect(command, kDispatchCommandOffset);
+    gl::dispatch_indirect(command.id(), kDispatchCommandOffset);
   }
 };
 

@@ -39,10 +39,11 @@ struct PatternSelection::Impl {
   std::size_t capacity() const { return scene->face_capacity(); }
   std::size_t group_count() const { return 2 * (patterns->draws().size() - 1); }
   std::size_t sort_blocks() const { return (capacity() + kSortBlock - 1) / kSortBlock; }
-  std::size_t entry_capacity() const { return capacity() + 4 * group_count(); }
+  /// Draw commands, then where each group is (refine_groups.glsl).
+  std::size_t command_uints() const { return (1 + 3 * group_count()) * kCommandUints + 3 * group_count(); }
+  std::size_t entry_capacity() const { return capacity() + kLargestBatch * group_count(); }
 
   Result<void> load_programs() {
-    const std::string nested = family == PatternFamily::kNested ? "NESTED 1" : "NESTED 0";
     const std::pair<const gl::Program**, const char*> all[] = {
         {&around, "refine_around.comp.glsl"},       {&faces, "refine_faces.comp.glsl"},
         {&block_scan, "refine_blocks.comp.glsl"},   {&write_lists, "refine_lists.comp.glsl"},
@@ -52,7 +53,7 @@ struct PatternSelection::Impl {
     for (const auto& [program, name] : all) {
       gl::ProgramFiles files;
       files.compute = name;
-      files.defines = {nested};
+      files.defines = {nested_define(family)};
       const auto made = scene->context().program(files);
       if (!made) return tl::unexpected(made.error());
       *program = *made;
@@ -70,7 +71,7 @@ struct PatternSelection::Impl {
     lists = gl::make_storage(3 * capacity() * kUint);
     blocks = gl::make_storage(2 * capacity() / gl::kWorkgroupSize * kUint);
     groups = gl::make_storage(sort_blocks() * group_count() * kUint);
-    commands = gl::make_storage((1 + 2 * group_count()) * kCommandUints * kUint);
+    commands = gl::make_storage(command_uints() * kUint);
     coarse = gl::make_vertex_array();
     glVertexArrayElementBuffer(coarse.id(), lists.id());
     several = instance_array(4);
@@ -120,13 +121,20 @@ struct PatternSelection::Impl {
     gl::bind_storage(kDraws, patterns->draw_buffer().id());
   }
 
-  void multi_draw(const gl::VertexArray& array, std::size_t first_command, std::size_t count) const {
+  void multi_draw(const gl::VertexArray& array, unsigned index_type, std::size_t first_command) const {
+    const std::size_t count = group_count();
+    if (count == 0) return;
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
     glBindVertexArray(array.id());
-    glMultiDrawElementsIndirect(GL_TRIANGLES, patterns->index_type(),
+    glMultiDrawElementsIndirect(GL_TRIANGLES, index_type,
                                 reinterpret_cast<const void*>(first_command * kCommandUints * 4),
                                 static_cast<GLsizei>(count), 0);
   }
 };
+
+std::string nested_define(PatternFamily family) {
+  return family == PatternFamily::kNested ? "NESTED 1" : "NESTED 0";
+}
 
 Result<PatternSelection> PatternSelection::create(const RefinementScene& scene, PatternFamily family,
                                                   const PatternBuffers& patterns, int max_level) {
@@ -177,11 +185,11 @@ void PatternSelection::run(const EdgeLevelPass& levels, std::uint64_t budget) co
   pass(impl.block_scan, 1);
   pass(impl.write_lists, face_blocks);
   impl.histogram->use();
-  gl::dispatch_indirect(impl.frame, kDispatchOffset);
+  gl::dispatch_indirect(impl.frame.id(), kDispatchOffset);
   gl::storage_barrier();
   pass(impl.offsets, 1);
   impl.sort->use();
-  gl::dispatch_indirect(impl.frame, kDispatchOffset);
+  gl::dispatch_indirect(impl.frame.id(), kDispatchOffset);
   gl::full_barrier();
 }
 
@@ -192,11 +200,12 @@ void PatternSelection::draw_coarse() const {
 }
 
 void PatternSelection::draw_refined() const {
-  const std::size_t groups = impl_->group_count();
-  if (groups == 0) return;
-  glBindBuffer(GL_DRAW_INDIRECT_BUFFER, impl_->commands.id());
-  impl_->multi_draw(impl_->several, 1, groups);
-  impl_->multi_draw(impl_->single, 1 + groups, groups);
+  impl_->multi_draw(impl_->several, impl_->patterns->index_type(), 1);
+  impl_->multi_draw(impl_->single, impl_->patterns->index_type(), 1 + impl_->group_count());
+}
+
+void PatternSelection::draw_stored(const gl::VertexArray& array) const {
+  impl_->multi_draw(array, GL_UNSIGNED_SHORT, 1 + 2 * impl_->group_count());
 }
 
 const gl::Texture& PatternSelection::cut() const {
@@ -204,20 +213,12 @@ const gl::Texture& PatternSelection::cut() const {
 }
 
 std::uint64_t PatternSelection::triangle_count() const {
-  const std::size_t groups = impl_->group_count();
-  std::vector<std::array<std::uint32_t, kCommandUints>> commands(1 + 2 * groups);
+  std::vector<std::uint32_t> commands(impl_->command_uints());
   gl::read_buffer(impl_->commands.id(), 0, std::as_writable_bytes(std::span(commands)));
-  // Instances are padded to whole ones; what the gaps hold is marked.
-  std::vector<std::uint32_t> entries(impl_->entry_capacity());
-  gl::read_buffer(impl_->keys.id(), 0, std::as_writable_bytes(std::span(entries)));
-  std::uint64_t count = commands[0][0] / 3;
-  for (std::size_t group = 0; group < groups; ++group) {
-    const PatternDraw& draw = impl_->patterns->draws()[group / 2 + 1];
-    const auto& command = commands[1 + (draw.faces_an_instance > 1 ? 0 : groups) + group];
-    const std::uint64_t faces = std::uint64_t{command[1]} * draw.faces_an_instance;
-    const std::uint64_t first = std::uint64_t{command[4]} * draw.faces_an_instance;
-    for (std::uint64_t i = first; i < first + faces; ++i)
-      count += entries[i] == 0xffffffffu ? 0 : draw.triangles;
+  std::uint64_t count = commands[0] / 3;
+  for (std::size_t group = 0; group < impl_->group_count(); ++group) {
+    const std::uint64_t faces = commands[first_group_uint() + 3 * group + 1];
+    count += faces * impl_->patterns->draws()[group / 2 + 1].triangles;
   }
   return count;
 }
@@ -225,7 +226,7 @@ std::uint64_t PatternSelection::triangle_count() const {
 std::size_t PatternSelection::bytes() const {
   const Impl& impl = *impl_;
   return 4 * (kFrameUints + impl.entry_capacity() + 3 * impl.capacity() + 2 * impl.capacity() / gl::kWorkgroupSize +
-              impl.sort_blocks() * impl.group_count() + (1 + 2 * impl.group_count()) * kCommandUints);
+              impl.sort_blocks() * impl.group_count() + impl.command_uints());
 }
 
 unsigned PatternSelection::entries_buffer() const {
@@ -239,6 +240,12 @@ unsigned PatternSelection::lists_buffer() const {
 }
 unsigned PatternSelection::frame_buffer() const {
   return impl_->frame.id();
+}
+std::size_t PatternSelection::entry_capacity() const {
+  return impl_->entry_capacity();
+}
+std::size_t PatternSelection::first_group_uint() const {
+  return (1 + 3 * impl_->group_count()) * kCommandUints;
 }
 std::size_t PatternSelection::group_count() const {
   return impl_->group_count();

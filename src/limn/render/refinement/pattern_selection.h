@@ -3,18 +3,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "limn/render/refinement/edge_levels.h"
 #include "limn/render/refinement/pattern_buffers.h"
 
 namespace limn {
 
+/// What tells shaders of which family the patterns are.
+std::string nested_define(PatternFamily family);
+
 /// Chooses every face's pattern on the graphics device and sorts the faces by it: from levels to the commands that draw
 /// them, without a word to the CPU (docs/gpu-refinement.md). The unrefined triangles become one index list; the refined
 /// faces are sorted by pattern and winding (a counting sort: reduce, scan, scatter), ascending within each.
 class PatternSelection {
  public:
-  /// Memory on the device: 16 bytes a face, and 256 bytes a kind of pattern.
+  /// Memory on the device: 16 bytes a face, and some hundred bytes a pattern.
   static Result<PatternSelection> create(const RefinementScene& scene, PatternFamily family,
                                          const PatternBuffers& patterns, int max_level);
   ~PatternSelection();
@@ -32,6 +36,9 @@ class PatternSelection {
   /// the refined ones. \pre the program for each is made current by use_coarse and use_refined
   void draw_coarse() const;
   void draw_refined() const;
+  /// One call, over vertices that were stored in the order of the entries. \pre the vertex array feeds a value an
+  /// instance
+  void draw_stored(const gl::VertexArray& array) const;
 
   /// One texel: what a budget took from every level.
   const gl::Texture& cut() const;
@@ -46,6 +53,11 @@ class PatternSelection {
   unsigned lists_buffer() const;
   unsigned frame_buffer() const;
   std::size_t group_count() const;
+  std::size_t entry_capacity() const;
+  /// Where frame_buffer() has the counts of a dispatch with one invocation an entry.
+  static constexpr std::size_t kEntryDispatchOffset = 160;
+  /// Where commands_buffer() has, for each group, its first entry, how many, and its first stored vertex: in uints.
+  std::size_t first_group_uint() const;
 
  private:
   struct Impl;

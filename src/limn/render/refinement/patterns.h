@@ -8,6 +8,7 @@
 #include "limn/render/refinement/method.h"
 #include "limn/render/refinement/pattern_buffers.h"
 #include "limn/render/refinement/pattern_selection.h"
+#include "limn/render/refinement/stored_surface.h"
 
 namespace limn {
 
@@ -17,7 +18,14 @@ struct PatternMethodOptions {
   Blend blend = Blend::kSurplus;
   /// The most triangles a frame draws, 0 for no such bound; never below the scene's own (PatternSelection::run()).
   std::uint64_t triangle_budget = 0;
+  /// Where the surface's points are computed: in the vertex stage of every pass, which needs no memory for them; or
+  /// once a frame into memory (StoredSurface), for the passes to draw from. Storing needs a bound: the budget, or where
+  /// there is none kStoredTriangles; a frame that would exceed it is cut as for a budget.
+  bool store = false;
+  bool store_attributes = true;  ///< false: for passes of positions alone
 };
+
+inline constexpr std::uint64_t kStoredTriangles = 2'000'000;
 
 /// The default way to draw a scene refined: everything is decided and drawn on the graphics device, with a fixed number
 /// of calls whatever the scene, and nothing is read back (docs/gpu-refinement.md). Stored patterns (Lenz et al. 2009)
@@ -37,6 +45,11 @@ class PatternMethod final : public RefinementMethod {
 
   EdgeLevelPass& levels() { return *levels_; }
   const PatternSelection& selection() const { return *selection_; }
+
+  /// What was refined, read back as a mesh in world space, one value of each attribute a vertex; waits for the device.
+  /// Unrefined triangles first, then by pattern. Errors: kUnsuitable unless made with `store`.
+  Result<Mesh> read() const;
+
   const PatternBuffers& patterns() const { return *patterns_; }
 
  private:
@@ -46,8 +59,9 @@ class PatternMethod final : public RefinementMethod {
   std::unique_ptr<PatternBuffers> patterns_;  // where the selection finds them, wherever this object goes
   std::unique_ptr<EdgeLevelPass> levels_;
   std::unique_ptr<PatternSelection> selection_;
+  std::unique_ptr<StoredSurface> stored_;
   SurfacePrograms coarse_programs_{{.vertex = "refine_coarse.vert.glsl"}};
-  SurfacePrograms refined_programs_{{.vertex = "refine_pattern.vert.glsl"}};
+  SurfacePrograms refined_programs_{{}};
 };
 
 }  // namespace limn

@@ -171,6 +171,12 @@ struct Table {
   }
 };
 
+/// The twin of to_world() in refine_scene.glsl, sums in its order.
+Vec3 transformed(const Mat4& m, const Vec3& p, float w) {
+  const auto row = [&](int r) { return ((m[0][r] * p.x + m[1][r] * p.y) + m[2][r] * p.z) + m[3][r] * w; };
+  return Vec3(row(0), row(1), row(2));
+}
+
 std::vector<std::uint32_t> block_owners(std::span<const std::size_t> first) {
   std::vector<std::uint32_t> owners;
   for (std::size_t i = 0; i + 1 < first.size(); ++i)
@@ -441,6 +447,38 @@ void RefinementScene::bind_edge_tables() const {
   gl::bind_texture(11, impl_->edge_blocks.texture);
   gl::bind_texture(12, impl_->edge_faces.texture);
   gl::bind_texture(13, impl_->face_normals.texture);
+}
+
+std::vector<SceneVertex> RefinementScene::read_vertices() const {
+  const Impl& impl = *impl_;
+  const auto read = [](const Table& table, auto& values) {
+    gl::read_buffer(table.buffer.id(), 0, std::as_writable_bytes(std::span(values)));
+  };
+  const std::size_t count = impl.positions.bytes / sizeof(Vec3);
+  std::vector<Vec3> positions(count), normals(count);
+  std::vector<Vec2> uvs(impl.uvs ? count : 0);
+  std::vector<Vec4> colors(impl.colors ? count : 0);
+  std::vector<std::uint32_t> materials(impl.materials ? count : 0);
+  read(impl.positions, positions);
+  read(impl.normals, normals);
+  read(impl.uv_table, uvs);
+  read(impl.color_table, colors);
+  read(impl.vertex_materials, materials);
+  std::vector<SceneVertex> vertices(vertex_capacity());
+  for (std::size_t i = 0; i < impl.instances.size(); ++i) {
+    const Mat4& to_world = impl.instances[i].to_world;
+    const Object& object = impl.objects[impl.instances[i].object];
+    for (std::size_t v = 0; v < object.vertex_count; ++v) {
+      const std::size_t from = object.first_vertex + v;
+      SceneVertex& vertex = vertices[impl.first_vertex[i] + v];
+      vertex.position = transformed(to_world, positions[from], 1.0f);
+      vertex.normal = transformed(to_world, normals[from], 0.0f);
+      if (impl.uvs) vertex.uv = uvs[from];
+      if (impl.colors) vertex.color = colors[from];
+      if (impl.materials) vertex.material = materials[from];
+    }
+  }
+  return vertices;
 }
 
 }  // namespace limn

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,6 +17,14 @@ namespace limn {
 struct RefinementInstance {
   std::size_t object = 0;
   Mat4 to_world{1.0f};  ///< affine; a rotation, a translation and one factor of scale
+};
+
+/// A vertex of a scene read back; what the scene lacks keeps these values.
+struct SceneVertex {
+  Vec3 position{0.0f}, normal{0.0f};
+  Vec2 uv{0.0f};
+  Vec4 color{1.0f};
+  std::uint32_t material = 0;
 };
 
 struct RefinementSceneOptions {
@@ -96,6 +105,8 @@ class RefinementScene {
   /// Vertices of all instances, gaps included: what the values of an index buffer over the scene mean (the vertex stage
   /// finds instance and vertex from them).
   std::size_t vertex_capacity() const;
+  /// These vertices in world space, as they are on the device now; waits for it. Gaps hold anything.
+  std::vector<SceneVertex> read_vertices() const;
 
  private:
   struct Impl;
