@@ -38,7 +38,7 @@ void main() {
   place_vertex(position);
 #else
   vec3 w = vec3(ijk) / float(1 << n);
-  emit_surface(position, to_world(placement, vec4(interpolate_normal(normal_field_of(f), w), 0.0)), interpolate(corner_uvs(f), w),
-               interpolate(corner_colors(f), w), material_of(f.vertices.x));
+  emit_surface(position, to_world(placement, vec4(face_normal_at(f, w), 0.0)), face_uv_at(f, w), face_color_at(f, w),
+               material_of(f.vertices.x));
 #endif
 }

@@ -71,3 +71,5 @@ vec3 to_world(Placement at, vec4 p) {
                             at.z.x * p.x + at.z.y * p.y + at.z.z * p.z + at.z.w * p.w);
   return world;
 }
+
+vec3 to_world(uint instance, vec4 p) { return to_world(placement_of(instance), p); }

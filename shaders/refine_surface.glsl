@@ -173,3 +173,5 @@ vec3 interpolate_normal(NormalField field, vec3 w) {
   float size = length(sum);
   return size > 1e-6 ? sum / size : field.n[0];
 }
+
+vec3 interpolate_normal(vec3 p[3], vec3 n[3], vec3 w) { return interpolate_normal(normal_field(p, n), w); }

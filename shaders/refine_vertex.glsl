@@ -31,13 +31,17 @@ RefinedFace refined_face(uint face) {
   return f;
 }
 
-/// The curve of side c of the face in the edge's own order.
-EdgeCurve side_curve(RefinedFace f, int c) {
-  uint edge = f.edges[c] & ~kReversed;
-  bool reversed = (f.edges[c] & kReversed) != 0u;
-  vec3 a = position_of(f.vertices[c]);
-  vec3 b = position_of(f.vertices[c == 2 ? 0 : c + 1]);
-  return EdgeCurve(reversed ? b : a, control_point(edge, 0u), control_point(edge, 1u), reversed ? a : b, f.levels[c]);
+/// The same face with its corners in another order: corner b of the result is corner order[b] of f. Weights and sides are the
+/// result's from then on.
+RefinedFace reordered(RefinedFace f, ivec3 order) {
+  RefinedFace r;
+  r.instance = f.instance;
+  r.vertices = uvec3(f.vertices[order.x], f.vertices[order.y], f.vertices[order.z]);
+  bool mirrored = order.y != (order.x == 2 ? 0 : order.x + 1);
+  ivec3 side = mirrored ? order.yzx : order;  // of f: that which joins the result's corners b and b + 1
+  r.edges = uvec3(f.edges[side.x], f.edges[side.y], f.edges[side.z]) ^ (mirrored ? kReversed : 0u);
+  r.levels = uvec3(f.levels[side.x], f.levels[side.y], f.levels[side.z]);
+  return r;
 }
 
 Patch patch_of(RefinedFace f) {
@@ -53,20 +57,32 @@ Patch patch_of(RefinedFace f) {
   return b;
 }
 
+/// The curve of side 0, 1 or 2 in the edge's own order. Chosen from the patch's points, which all sides have loaded anyway.
+EdgeCurve side_curve(Patch b, uvec3 edges, uvec3 levels, int side) {
+  vec3 p0 = side == 0 ? b.p[0] : side == 1 ? b.p[1] : b.p[2];
+  vec3 p1 = side == 0 ? b.p[1] : side == 1 ? b.p[2] : b.p[0];
+  vec3 c0 = side == 0 ? b.c[0] : side == 1 ? b.c[2] : b.c[4];
+  vec3 c1 = side == 0 ? b.c[1] : side == 1 ? b.c[3] : b.c[5];
+  uint level = side == 0 ? levels.x : side == 1 ? levels.y : levels.z;
+  uint edge = side == 0 ? edges.x : side == 1 ? edges.y : edges.z;
+  bool reversed = (edge & kReversed) != 0u;
+  return EdgeCurve(reversed ? p1 : p0, reversed ? c1 : c0, reversed ? c0 : c1, reversed ? p0 : p1, level);
+}
+
 /// The point of the face at weights ijk / 2^n, in the object's space.
 vec3 face_point(RefinedFace f, ivec3 ijk, int n) {
   int whole = 1 << n;
-  if (ijk.x == whole) return position_of(f.vertices.x);
-  if (ijk.y == whole) return position_of(f.vertices.y);
-  if (ijk.z == whole) return position_of(f.vertices.z);
-  if (ijk.x != 0 && ijk.y != 0 && ijk.z != 0) {
-    Patch b = patch_of(f);
-    return interior_point(b, patch_bend(b), f.levels, ijk, n);
-  }
-  int c = ijk.z == 0 ? 0 : ijk.x == 0 ? 1 : 2;
-  int along = c == 0 ? ijk.y : c == 1 ? ijk.z : ijk.x;
-  bool reversed = (f.edges[c] & kReversed) != 0u;
-  return edge_point(side_curve(f, c), reversed ? whole - along : along, n);
+  Patch b = patch_of(f);
+  int side = ijk.z == 0 ? 0 : ijk.x == 0 ? 1 : 2;
+  int along = side == 0 ? ijk.y : side == 1 ? ijk.z : ijk.x;
+  EdgeCurve curve = side_curve(b, f.edges, f.levels, side);
+  bool reversed = ((side == 0 ? f.edges.x : side == 1 ? f.edges.y : f.edges.z) & kReversed) != 0u;
+  vec3 point = edge_point(curve, reversed ? whole - along : along, n);
+  if (ijk.x != 0 && ijk.y != 0 && ijk.z != 0) point = interior_point(b, patch_bend(b), f.levels, ijk, n);
+  if (ijk.x == whole) point = b.p[0];
+  if (ijk.y == whole) point = b.p[1];
+  if (ijk.z == whole) point = b.p[2];
+  return point;
 }
 
 NormalField normal_field_of(RefinedFace f) {
@@ -83,3 +99,7 @@ mat3x4 corner_colors(RefinedFace f) {
   return mat3x4(color_of(f.vertices.x), color_of(f.vertices.y), color_of(f.vertices.z));
 }
 vec4 interpolate(mat3x4 values, vec3 w) { return values[0] * w.x + values[1] * w.y + values[2] * w.z; }
+
+vec3 face_normal_at(RefinedFace f, vec3 w) { return interpolate_normal(normal_field_of(f), w); }
+vec2 face_uv_at(RefinedFace f, vec3 w) { return interpolate(corner_uvs(f), w); }
+vec4 face_color_at(RefinedFace f, vec3 w) { return interpolate(corner_colors(f), w); }
