@@ -1,9 +1,9 @@
 // Hands a vertex of an instance to the fragments, or, with POSITIONS_ONLY, its place alone. With CAPTURED the place in the
 // object's space can be caught by transform feedback.
 
-#ifdef POSITIONS_ONLY
+// A file is included once, whatever the preprocessor then makes of it: not from within a condition alone.
 #include "clip_space.glsl"
-#else
+#ifndef POSITIONS_ONLY
 #include "surface_vertex.glsl"
 #endif
 #ifdef CAPTURED
