@@ -422,6 +422,7 @@ void RefinementScene::update_surface() {
   assert(impl_->options.deforming);
   gl::full_barrier();  // what the application wrote is fetched as texels
   bind();
+  bind_edge_tables();
   gl::bind_storage(0, impl_->face_normals.buffer.id());
   impl_->normals_program->use();
   impl_->normals_program->set("face_count", static_cast<unsigned>(impl_->object_faces));
