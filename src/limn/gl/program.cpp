@@ -143,5 +143,9 @@ void Program::set(const char* uniform, const Vec4& value) const {
 void Program::set(const char* uniform, const Mat4& value) const {
   glProgramUniformMatrix4fv(id_, location(uniform), 1, GL_FALSE, glm::value_ptr(value));
 }
+void Program::set(const char* uniform, std::span<const std::array<std::uint32_t, 4>> values) const {
+  if (!values.empty())
+    glProgramUniform4uiv(id_, location(uniform), static_cast<GLsizei>(values.size()), values.front().data());
+}
 
 }  // namespace limn::gl
