@@ -4,6 +4,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#ifdef LIMN_WITH_GL
+#include "limn/render/refinement/device_refine.h"
+#endif
+
 #include "camera_options.h"
 #include "level_options.h"
 #include "mesh_files.h"
@@ -20,6 +24,7 @@ struct RefineFlags {
   CameraOptions camera;
   LevelFlags levels;
   Size size{1024, 1024};
+  bool on_device = false;
 };
 
 Result<void> check(const Session& session, const RefineFlags& flags) {
@@ -63,6 +68,7 @@ Result<void> report(Session& session, const RefineFlags& flags, const LoadedMesh
   return session.print_json(
       {{"input", flags.input.path},
        {"output", flags.output.path},
+       {"backend", flags.on_device ? "gpu" : "cpu"},
        {"criterion", criterion_name(flags.levels.criterion)},
        {"max_level", flags.levels.max_level},
        {"triangles_in", loaded.mesh.face_count()},
@@ -73,6 +79,18 @@ Result<void> report(Session& session, const RefineFlags& flags, const LoadedMesh
        {"time_ms", time_ms},
        {"notes", loaded.notes},
        {"repairs", loaded.repairs}});
+}
+
+Result<Refinement> refine_by_backend(Session& session, const RefineFlags& flags, const Mesh& mesh, const View& view) {
+  const RefineOptions options = refine_options(flags.levels, session.progress());
+  if (!flags.on_device) return refine(mesh, view, options);
+#ifdef LIMN_WITH_GL
+  const auto context = gl::Context::create();
+  if (!context) return tl::unexpected(context.error());
+  return refine_on_device(**context, mesh, view, options);
+#else
+  return fail(ErrorCode::kNoGraphics, "this limn was built without OpenGL", "use --backend cpu");
+#endif
 }
 
 Result<int> run(Session& session, const RefineFlags& flags) {
@@ -87,7 +105,7 @@ Result<int> run(Session& session, const RefineFlags& flags) {
     view = view_of(*camera, flags.size.height);
   }
   const auto begun = std::chrono::steady_clock::now();
-  const Result<Refinement> refined = refine(loaded->mesh, view, refine_options(flags.levels, session.progress()));
+  const Result<Refinement> refined = refine_by_backend(session, flags, loaded->mesh, view);
   if (!refined) return tl::unexpected(about(refined.error(), flags.input.path));
   const double time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
   return save(session, refined->mesh, flags.output)
@@ -104,6 +122,8 @@ Run declare_refine(OptionTable& table) {
   add_camera_options(table, flags->camera);
   add_level_options(table, flags->levels);
   table.parsed("--size", "WxH", flags->size, parse_size, "of the picture --pixels counts in (default 1024x1024)");
+  table.choice("--backend", flags->on_device, {{"cpu", false}, {"gpu", true}},
+               "where the surface is computed (default cpu); the same triangles in another order");
   return [flags](Session& session) { return run(session, *flags); };
 }
 
