@@ -1,4 +1,5 @@
 // The tables of a refinement scene (render/refinement/scene.h), as texels of uints: floats by their bits.
+// With FACE_UNIFORMS what belongs to corners and edges comes from uniforms instead, those of the one face that is drawn.
 // Work counts faces, edges and vertices over all instances, 256 of one instance at a time; tables count them over objects.
 
 layout(binding = 0) uniform usamplerBuffer instances;         // seven texels each, see below
@@ -17,6 +18,9 @@ const uint kReversed = 0x80000000u;
 const uint kInvalid = 0xffffffffu;
 const int kInstanceTexels = 7;
 
+#ifdef FACE_UNIFORMS
+#include "refine_face_uniforms.glsl"
+#else
 vec3 position_of(uint v) { return uintBitsToFloat(texelFetch(positions, int(v)).xyz); }
 vec3 normal_of(uint v) { return uintBitsToFloat(texelFetch(normals, int(v)).xyz); }
 vec3 control_point(uint edge, uint end) { return uintBitsToFloat(texelFetch(curves, int(2u * edge + end)).xyz); }
@@ -44,6 +48,7 @@ uint material_of(uint v) {
   return 0u;
 #endif
 }
+#endif
 
 uvec4 instance_texel(uint instance, int n) {
   return texelFetch(instances, int(instance) * kInstanceTexels + n);

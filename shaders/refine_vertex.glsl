@@ -18,14 +18,21 @@ uint level_of(uint instance_edge) {
   return level_cut(level_own(texelFetch(edge_levels, int(instance_edge)).x), texelFetch(frame, 0).x);
 }
 
-RefinedFace refined_face(uint face) {
+/// All but the levels, which are 0.
+RefinedFace face_tables_of(uint face) {
   RefinedFace f;
   f.instance = texelFetch(face_blocks, int(face >> 8)).x;
   uvec4 faces = instance_faces(f.instance);
-  uvec4 edges = instance_edges(f.instance);
   int row = int(face - faces.x + faces.y);
   f.vertices = texelFetch(face_vertices, row).xyz;
   f.edges = texelFetch(face_edges, row).xyz;
+  f.levels = uvec3(0u);
+  return f;
+}
+
+RefinedFace refined_face(uint face) {
+  RefinedFace f = face_tables_of(face);
+  uvec4 edges = instance_edges(f.instance);
   uvec3 at = (f.edges & ~kReversed) - edges.y + edges.x;
   f.levels = uvec3(level_of(at.x), level_of(at.y), level_of(at.z));
   return f;
@@ -69,19 +76,37 @@ EdgeCurve side_curve(Patch b, uvec3 edges, uvec3 levels, int side) {
   return EdgeCurve(reversed ? p1 : p0, reversed ? c1 : c0, reversed ? c0 : c1, reversed ? p0 : p1, level);
 }
 
+/// A point of weights ijk / 2^n on a side: k / 2^n from the first end of the side's edge.
+struct SidePlace {
+  int side, k;
+};
+SidePlace side_place(RefinedFace f, ivec3 ijk, int n) {
+  int side = ijk.z == 0 ? 0 : ijk.x == 0 ? 1 : 2;
+  int along = side == 0 ? ijk.y : side == 1 ? ijk.z : ijk.x;
+  bool reversed = ((side == 0 ? f.edges.x : side == 1 ? f.edges.y : f.edges.z) & kReversed) != 0u;
+  return SidePlace(side, reversed ? (1 << n) - along : along);
+}
+
 /// The point of the face at weights ijk / 2^n, in the object's space.
 vec3 face_point(RefinedFace f, ivec3 ijk, int n) {
   int whole = 1 << n;
   Patch b = patch_of(f);
-  int side = ijk.z == 0 ? 0 : ijk.x == 0 ? 1 : 2;
-  int along = side == 0 ? ijk.y : side == 1 ? ijk.z : ijk.x;
-  EdgeCurve curve = side_curve(b, f.edges, f.levels, side);
-  bool reversed = ((side == 0 ? f.edges.x : side == 1 ? f.edges.y : f.edges.z) & kReversed) != 0u;
-  vec3 point = edge_point(curve, reversed ? whole - along : along, n);
+  SidePlace at = side_place(f, ijk, n);
+  vec3 point = edge_point(side_curve(b, f.edges, f.levels, at.side), at.k, n);
   if (ijk.x != 0 && ijk.y != 0 && ijk.z != 0) point = interior_point(b, patch_bend(b), f.levels, ijk, n);
   if (ijk.x == whole) point = b.p[0];
   if (ijk.y == whole) point = b.p[1];
   if (ijk.z == whole) point = b.p[2];
+  return point;
+}
+
+/// The point of the patch itself at weights ijk / 2^n, and of the edge's curve on an edge: what a face of whole levels has there
+/// that is not blended. Exact at corners. The face's levels do not matter.
+vec3 unblended_point(RefinedFace f, ivec3 ijk, int n) {
+  Patch b = patch_of(f);
+  SidePlace at = side_place(f, ijk, n);
+  vec3 point = evaluate_curve(side_curve(b, f.edges, f.levels, at.side), float(at.k) / float(1 << n));
+  if (ijk.x != 0 && ijk.y != 0 && ijk.z != 0) point = evaluate_patch(b, vec3(ijk) / float(1 << n));
   return point;
 }
 

@@ -100,12 +100,18 @@ void attach_attribute(const VertexArray& array, const Buffer& buffer, const Floa
   glEnableVertexArrayAttrib(array.id(), location);
 }
 
-void attach_uint_per_instance(const VertexArray& array, const Buffer& buffer, unsigned location) {
-  glVertexArrayVertexBuffer(array.id(), location, buffer.id(), 0, sizeof(GLuint));
-  glVertexArrayAttribIFormat(array.id(), location, 1, GL_UNSIGNED_INT, 0);
+void attach_uints(const VertexArray& array, const Buffer& buffer, const UintAttribute& attribute) {
+  const unsigned location = attribute.location;
+  const GLsizei stride = attribute.components * static_cast<GLsizei>(sizeof(GLuint));
+  glVertexArrayVertexBuffer(array.id(), location, buffer.id(), 0, stride);
+  glVertexArrayAttribIFormat(array.id(), location, attribute.components, GL_UNSIGNED_INT, 0);
   glVertexArrayAttribBinding(array.id(), location, location);
-  glVertexArrayBindingDivisor(array.id(), location, 1);
+  glVertexArrayBindingDivisor(array.id(), location, attribute.per_instance ? 1 : 0);
   glEnableVertexArrayAttrib(array.id(), location);
+}
+
+void attach_uint_per_instance(const VertexArray& array, const Buffer& buffer, unsigned location) {
+  attach_uints(array, buffer, {location, 1, true});
 }
 
 bool take_out_of_memory() {

@@ -85,6 +85,15 @@ struct FloatAttribute {
 };
 void attach_attribute(const VertexArray& array, const Buffer& buffer, const FloatAttribute& attribute);
 
+/// Feeds `components` uints a vertex (or an instance, from the draw's base instance on) to an attribute, one after the
+/// other in the buffer.
+struct UintAttribute {
+  unsigned location;
+  int components = 1;
+  bool per_instance = false;
+};
+void attach_uints(const VertexArray& array, const Buffer& buffer, const UintAttribute& attribute);
+
 /// Feeds one uint an instance (from the draw's base instance on) to an attribute.
 void attach_uint_per_instance(const VertexArray& array, const Buffer& buffer, unsigned location);
 

@@ -147,5 +147,8 @@ void Program::set(const char* uniform, std::span<const std::array<std::uint32_t,
   if (!values.empty())
     glProgramUniform4uiv(id_, location(uniform), static_cast<GLsizei>(values.size()), values.front().data());
 }
+void Program::set(const char* uniform, std::span<const Vec4> values) const {
+  glProgramUniform4fv(id_, location(uniform), static_cast<GLsizei>(values.size()), &values.data()->x);
+}
 
 }  // namespace limn::gl

@@ -53,8 +53,9 @@ class Program {
   void set(const char* uniform, const Vec3& value) const;
   void set(const char* uniform, const Vec4& value) const;
   void set(const char* uniform, const Mat4& value) const;
-  /// An array of uvec4, named with its first element: "name[0]".
+  /// An array of uvec4 or vec4, named with its first element: "name[0]".
   void set(const char* uniform, std::span<const std::array<std::uint32_t, 4>> values) const;
+  void set(const char* uniform, std::span<const Vec4> values) const;
 
  private:
   explicit Program(unsigned id) : id_(id) {}
