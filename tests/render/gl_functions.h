@@ -2,7 +2,7 @@
 
 // The OpenGL functions whose calls tests count, without their "gl": all that the library uses (a test compares them
 // with its sources), and those that would wait for the device, read it or do in another way what the library does.
-// clang-format off: one list, broken where the line ends
+// clang-format off
 #define LIMN_TEST_GL_FUNCTIONS(X) \
   X(ActiveTexture) X(AttachShader) X(BeginConditionalRender) X(BeginQuery) X(BeginTransformFeedback) \
   X(BindBuffer) X(BindBufferBase) X(BindBufferRange) X(BindBuffersBase) X(BindFramebuffer) X(BindImageTexture) \
