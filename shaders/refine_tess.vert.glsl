@@ -1,6 +1,6 @@
 #version 450 core
-// Fetches a corner of a face, once, for all points of its patch. The index names face and corner: gl_PrimitiveID cannot be relied on
-// in the stages that tessellate.
+// Fetches a corner of a face and puts it in world space, once for all points of its patch. The index names face and corner:
+// gl_PrimitiveID cannot be relied on in the stages that tessellate.
 
 #include "refine_scene.glsl"
 #include "refine_levels.glsl"
@@ -19,11 +19,10 @@ void main() {
   int row = int(face - faces.x + faces.y);
   uint v = texelFetch(face_vertices, row)[c];
   uint side = texelFetch(face_edges, row)[c];
-  corner.point = position_of(v);
-  corner.instance = instance;
+  corner.point = to_world(instance, vec4(position_of(v), 1.0));
   corner.face = face;
 #ifndef POSITIONS_ONLY
-  corner.normal = normal_of(v);
+  corner.normal = to_world(instance, vec4(normal_of(v), 0.0));
   corner.uv = uv_of(v);
   corner.color = color_of(v);
   corner.material = material_of(v);
@@ -35,7 +34,7 @@ void main() {
   }
   uint edge = side & ~kReversed;
   uint first = side >> 31;
-  corner.near = control_point(edge, first);
-  corner.far = control_point(edge, 1u - first);
+  corner.near = to_world(instance, vec4(control_point(edge, first), 1.0));
+  corner.far = to_world(instance, vec4(control_point(edge, 1u - first), 1.0));
   corner.side = level_own(texelFetch(edge_levels, int(edge - edges.y + edges.x)).x) | (side & kReversed);
 }

@@ -9,6 +9,7 @@
 
 #include "limn/mesh/shapes.h"
 #include "limn/render/refinement/patterns.h"
+
 #include "render/capture.h"
 #include "render/drawing_test.h"
 

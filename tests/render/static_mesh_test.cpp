@@ -4,6 +4,7 @@
 #include <array>
 
 #include "limn/mesh/shapes.h"
+
 #include "render/capture.h"
 #include "render/drawing_test.h"
 
@@ -29,7 +30,8 @@ TEST_F(StaticMesh, DrawsTheUniformlyRefinedMeshOfTheCpu) {
     auto method = StaticMeshMethod::uniform(*scene, level);
     ASSERT_TRUE(method) << format_error(method.error());
     ASSERT_TRUE(method->refine(kView));
-    const auto expected = object.refine_with(std::vector<float>(object.topology().edge_count(), static_cast<float>(level)));
+    const auto expected =
+        object.refine_with(std::vector<float>(object.topology().edge_count(), static_cast<float>(level)));
     ASSERT_TRUE(expected);
     const Mesh& mesh = expected->mesh;
     ASSERT_EQ(mesh.face_count(), object.mesh().face_count() << 2 * level);

@@ -21,10 +21,10 @@ SurfaceProgram stages_of(TessellationSpacing spacing) {
   stages.tessellation_control = "refine_tess.tesc.glsl";
   stages.tessellation_evaluation = "refine_tess.tese.glsl";
   const bool equal = spacing == TessellationSpacing::kEqual;
-  stages.defines = {equal ? "FRACTIONAL 0" : "FRACTIONAL 1",
-                    equal                                            ? "SPACING equal_spacing"
-                    : spacing == TessellationSpacing::kFractionalOdd ? "SPACING fractional_odd_spacing"
-                                                                     : "SPACING fractional_even_spacing"};
+  stages.defines = {equal ? "FRACTIONAL 0" : "FRACTIONAL 1", equal ? "SPACING equal_spacing"
+                                                             : spacing == TessellationSpacing::kFractionalOdd
+                                                                 ? "SPACING fractional_odd_spacing"
+                                                                 : "SPACING fractional_even_spacing"};
   return stages;
 }
 
@@ -99,10 +99,10 @@ Result<HardwareTessellationMethod> HardwareTessellationMethod::create(Refinement
   method.array_ = gl::make_vertex_array();
   glVertexArrayElementBuffer(method.array_.id(), method.corners_.id());
   if (gl::take_out_of_memory()) {
-    return fail(ErrorCode::kNoGraphics,
-                "the graphics device has no memory for the patches of " + std::to_string(scene.triangle_count()) +
-                    " faces",
-                "draw a smaller scene");
+    return fail(
+        ErrorCode::kNoGraphics,
+        "the graphics device has no memory for the patches of " + std::to_string(scene.triangle_count()) + " faces",
+        "draw a smaller scene");
   }
   return method;
 }

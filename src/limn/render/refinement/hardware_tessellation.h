@@ -20,13 +20,14 @@ struct HardwareTessellationOptions {
   TessellationSpacing spacing = TessellationSpacing::kEqual;
 };
 
-/// The device's own tessellation stages on the same Bézier patches and edge levels as PatternMethod: the baseline to beat
-/// (docs/refinement-bench.md). All faces are patches of one call; inside, a patch has as many segments as on its finest
-/// side.
+/// The device's own tessellation stages on the same Bézier patches and edge levels as PatternMethod: the baseline to
+/// beat (docs/refinement-bench.md). All faces are patches of one call; inside, a patch has as many segments as on its
+/// finest side.
 ///
 /// A point on an edge comes from the edge's own curve and level, so that faces on both sides find the same bits; with
-/// kEqual they are those of PatternMethod. Inside, points lie on the patch: the tessellator's are on no dyadic grid, so
-/// there is nothing to blend between.
+/// kEqual, and instances that are not moved, they are those of PatternMethod. Control points are put in world space
+/// before patches are evaluated, once a patch. Inside, points lie on the patch: the tessellator's are on no dyadic
+/// grid, so there is nothing to blend between.
 class HardwareTessellationMethod final : public RefinementMethod {
  public:
   /// Memory on the device: 12 bytes a face, 4 an edge. \pre the scene outlives it and stays where it is
@@ -54,8 +55,8 @@ class HardwareTessellationMethod final : public RefinementMethod {
   SurfacePrograms programs_;
 };
 
-/// Triangles that OpenGL makes of a triangular patch: `sides` and `inner` are levels as a control stage writes them, none
-/// above the device's largest.
+/// Triangles that OpenGL makes of a triangular patch: `sides` and `inner` are levels as a control stage writes them,
+/// none above the device's largest.
 std::uint64_t tessellator_triangles(TessellationSpacing spacing, const float (&sides)[3], float inner);
 
 }  // namespace limn

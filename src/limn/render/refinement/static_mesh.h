@@ -14,10 +14,10 @@ namespace limn {
 /// (Dyken et al. 2008, section 7.2), or any dense one. The baseline that costs memory instead of time.
 class StaticMeshMethod final : public RefinementMethod {
  public:
-  /// Draws meshes in the places of the scene's objects, one each; they are not needed afterwards. A mesh's materials are
-  /// counted as its object's. \pre as many meshes as objects, none null; the scene's objects differ from each other; the
-  /// scene outlives it and stays where it is
-  /// Memory on the device: one value a vertex, 12 bytes a face. Errors: kNoGraphics when the device cannot hold it.
+  /// Draws meshes in the places of the scene's objects, one each; they are not needed afterwards. A mesh's materials
+  /// are counted as its object's. \pre as many meshes as objects, none null; the scene's objects differ from each
+  /// other; the scene outlives it and stays where it is Memory on the device: one value a vertex, 12 bytes a face.
+  /// Errors: kNoGraphics when the device cannot hold it.
   static Result<StaticMeshMethod> create(RefinementScene& scene, std::span<const Mesh* const> meshes);
 
   /// The scene's objects as they are.
