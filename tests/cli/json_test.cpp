@@ -120,6 +120,8 @@ TEST_F(Json, OfDemoIsAsDocumented) {
 
 TEST_F(Json, OfRenderIsAsDocumented) {
   expect_schema(limn.json({"render", "knot.ply", "-o", "knot.png", "--size", "64x48", "--outline"}), "render");
+  expect_schema(limn.json({"render", "knot.ply", "-o", "knot.png", "--size", "64x48", "--method", "patterns"}),
+                "render");
 }
 
 #endif

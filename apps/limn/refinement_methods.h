@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "limn/refine/refine.h"
+#include "limn/render/refinement/method.h"
+
+namespace limn::cli {
+
+/// How `render` draws a mesh.
+enum class RenderMethod {
+  kCoarse,         ///< as it is
+  kRefine,         ///< refined on the CPU
+  kAuto,           ///< the best that can do what is asked
+  kPatterns,       ///< all others on the graphics device
+  kTess,           ///< its own tessellation stages
+  kUniformStatic,  ///< everywhere the same, in a buffer
+};
+
+std::span<const std::pair<std::string_view, RenderMethod>> render_methods();
+std::string_view method_name(RenderMethod method);
+/// Whether it is one of RefinementMethod's.
+bool on_device(RenderMethod method);
+
+/// \pre on_device(method). \param budget  the most triangles, 0 for no bound; kPatterns alone heeds it
+/// Errors: those of the method's create().
+Result<std::unique_ptr<RefinementMethod>> make_method(RenderMethod method, RefinementScene& scene,
+                                                      const RefineOptions& options, std::uint64_t budget);
+
+}  // namespace limn::cli
