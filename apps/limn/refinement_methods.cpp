@@ -1,8 +1,14 @@
 #include "refinement_methods.h"
 
+#include "limn/render/refinement/ark.h"
+#include "limn/render/refinement/arkfpi.h"
+#include "limn/render/refinement/dmr.h"
+#include "limn/render/refinement/dyken.h"
 #include "limn/render/refinement/hardware_tessellation.h"
 #include "limn/render/refinement/patterns.h"
 #include "limn/render/refinement/static_mesh.h"
+#include "limn/render/refinement/suapt.h"
+#include "limn/render/refinement/uniform_patterns.h"
 
 namespace limn::cli {
 namespace {
@@ -22,13 +28,29 @@ PatternMethodOptions pattern_options(const RefineOptions& options, std::uint64_t
   return result;
 }
 
+DykenOptions dyken_options(const RefineOptions& options) {
+  DykenOptions result;
+  result.levels = options.levels;
+  result.basis = options.center == CenterRule::kMean ? DykenBasis::kNine : DykenBasis::kTen;
+  return result;
+}
+
 }  // namespace
 
 std::span<const std::pair<std::string_view, RenderMethod>> render_methods() {
   static constexpr std::pair<std::string_view, RenderMethod> kMethods[] = {
-      {"coarse", RenderMethod::kCoarse}, {"refine", RenderMethod::kRefine},
-      {"auto", RenderMethod::kAuto},     {"patterns", RenderMethod::kPatterns},
-      {"tess", RenderMethod::kTess},     {"uniform-static", RenderMethod::kUniformStatic},
+      {"coarse", RenderMethod::kCoarse},
+      {"refine", RenderMethod::kRefine},
+      {"auto", RenderMethod::kAuto},
+      {"patterns", RenderMethod::kPatterns},
+      {"tess", RenderMethod::kTess},
+      {"dyken", RenderMethod::kDyken},
+      {"arkfpi", RenderMethod::kArkfpi},
+      {"ark", RenderMethod::kArk},
+      {"dmr", RenderMethod::kDmr},
+      {"suapt", RenderMethod::kSuapt},
+      {"uniform-patterns", RenderMethod::kUniformPatterns},
+      {"uniform-static", RenderMethod::kUniformStatic},
   };
   return kMethods;
 }
@@ -49,6 +71,18 @@ Result<std::unique_ptr<RefinementMethod>> make_method(RenderMethod method, Refin
   switch (method) {
     case RenderMethod::kTess:
       return owned(HardwareTessellationMethod::create(scene, {.levels = options.levels}));
+    case RenderMethod::kDyken:
+      return owned(DykenMethod::create(scene, dyken_options(options)));
+    case RenderMethod::kArkfpi:
+      return owned(ArkfpiMethod::create(scene, options.levels));
+    case RenderMethod::kArk:
+      return owned(ArkMethod::create(scene, options.levels));
+    case RenderMethod::kDmr:
+      return owned(DmrMethod::create(scene, {.levels = options.levels}));
+    case RenderMethod::kSuapt:
+      return owned(SuaptMethod::create(scene, options.levels));
+    case RenderMethod::kUniformPatterns:
+      return owned(UniformPatternsMethod::create(scene, options.levels.max_level));
     case RenderMethod::kUniformStatic:
       return owned(StaticMeshMethod::uniform(scene, options.levels.max_level));
     default:

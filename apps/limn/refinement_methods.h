@@ -13,12 +13,19 @@ namespace limn::cli {
 
 /// How `render` draws a mesh.
 enum class RenderMethod {
-  kCoarse,         ///< as it is
-  kRefine,         ///< refined on the CPU
-  kAuto,           ///< the best that can do what is asked
-  kPatterns,       ///< all others on the graphics device
-  kTess,           ///< its own tessellation stages
-  kUniformStatic,  ///< everywhere the same, in a buffer
+  kCoarse,  ///< as it is
+  kRefine,  ///< refined on the CPU
+  kAuto,    ///< the best that can do what is asked
+  // All others on the graphics device.
+  kPatterns,
+  kTess,             ///< its own tessellation stages
+  kDyken,            ///< Dyken, Reimers and Seland 2008
+  kArkfpi,           ///< Lenz, Cavalcante-Neto and Vidal 2009, and what they compare with or build on:
+  kArk,              ///< Boubekeur and Schlick 2008
+  kDmr,              ///< Lorenz and Döllner 2008
+  kSuapt,            ///< Dyken, Reimers and Seland 2009
+  kUniformPatterns,  ///< Boubekeur and Schlick 2005
+  kUniformStatic,    ///< everywhere the same, in a buffer
 };
 
 std::span<const std::pair<std::string_view, RenderMethod>> render_methods();
