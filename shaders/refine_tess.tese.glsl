@@ -32,7 +32,7 @@ vec3 side_point(vec3 w) {
   return evaluate_curve(e, along);
 #else
   int n = int(level_ceil(e.level));
-  return edge_vertex(e, int(along * float(1 << n) + 0.5), n, n);
+  return edge_vertex(e, curve_bend(e), int(along * float(1 << n) + 0.5), n, n);
 #endif
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <epoxy/gl.h>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -26,6 +27,14 @@ SurfaceProgram stages_of(TessellationSpacing spacing) {
                                                                  ? "SPACING fractional_odd_spacing"
                                                                  : "SPACING fractional_even_spacing"};
   return stages;
+}
+
+/// Patches that one draw makes. Mesa's software device copies what a batch has tessellated each time it needs more
+/// room, in quadratic time: 490 patches of 64 segments a side take minutes in one. It cuts batches itself for small
+/// ones.
+std::size_t patches_a_draw(int max_level) {
+  constexpr std::size_t kVertices = 1 << 16;
+  return max_level <= 3 ? std::numeric_limits<std::size_t>::max() : kVertices >> (2 * max_level);
 }
 
 /// The index of corner c of a face, counted over instances, is 3 face + c.
@@ -127,8 +136,13 @@ Result<void> HardwareTessellationMethod::draw(const SurfacePass& pass) {
   glPatchParameteri(GL_PATCH_VERTICES, 3);
   glBindVertexArray(array_.id());
   // Indexed, although the indices only count: one call of as many patches without takes llvmpipe quadratic time.
+  const std::size_t all = scene_->triangle_count();
+  const std::size_t share = std::max<std::size_t>(1, patches_a_draw(options_.levels.max_level));
   draw_hooked(pass, [&] {
-    glDrawElements(GL_PATCHES, static_cast<GLsizei>(3 * scene_->triangle_count()), GL_UNSIGNED_INT, nullptr);
+    for (std::size_t first = 0; first < all; first += std::min(share, all - first)) {
+      glDrawElements(GL_PATCHES, static_cast<GLsizei>(3 * std::min(share, all - first)), GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(3 * sizeof(std::uint32_t) * first));
+    }
   });
   return {};
 }
