@@ -95,7 +95,7 @@ const char* color_of(const std::string& contestant) {
   static const std::map<std::string, const char*> kColors = {
       {"uniform-static", "#888888"}, {"uniform-patterns", "#c0a060"}, {"dyken", "#d04040"},
       {"dyken dynamic", "#e09090"},  {"patterns nested", "#2060c0"},  {"patterns", "#20a0c0"},
-      {"tess", "#208040"},           {"arkfpi", "#d04040"},           {"dmr", "#c0a060"},
+      {"tess", "#208040"},           {"arkfpi", "#d04040"},           {"dmr", "#906030"},
       {"suapt", "#8040a0"}};
   const auto found = kColors.find(contestant);
   return found == kColors.end() ? "#000000" : found->second;
@@ -125,7 +125,7 @@ std::vector<Plot> plots_of(const std::vector<RefinementRow>& rows) {
       rows, "figure9b", [](const RefinementRow& row) { return static_cast<double>(row.faces); },
       [](const RefinementRow&, const FrameTimes& times) { return times.median_ms; });
   Plot published{"Speed over ARK (Lenz et al. 2009, Table 3)", "row of the table", "times as fast", false, true, {}};
-  Series paper{"ARKFPI, published", "#d04040", true, {}, {}};
+  Series paper{"paper: arkfpi", "#d04040", true, {}, {}};
   published.series = series_of(
       rows, "table3", [](const RefinementRow& row) { return row.figure("row"); },
       [](const RefinementRow& row, const FrameTimes& times) { return row.find("ark")->median_ms / times.median_ms; });
