@@ -63,7 +63,7 @@ std::string table_of(const std::vector<RefinementRow>& rows) {
       text += fmt::format("  {:28} {:12.6g}\n", name, value);
     const FrameTimes* rival = row.find(rival_of(row));
     for (const FrameTimes& times : row.contestants) {
-      text += fmt::format("  {:18} {:9.3f} ms ({:.3f}-{:.3f}) {:10} triangles {:11} bytes", times.name, times.median_ms,
+      text += fmt::format("  {:24} {:9.3f} ms ({:.3f}-{:.3f}) {:10} triangles {:11} bytes", times.name, times.median_ms,
                           times.low_ms, times.high_ms, times.triangles, times.device_bytes);
       if (const auto faster = faster_percent(row, rival_of(row), times))
         text += fmt::format("  {:+8.1f} % on {}, {:.2f} of its triangles", *faster, rival->name,
@@ -96,7 +96,7 @@ const char* color_of(const std::string& contestant) {
       {"uniform-static", "#888888"}, {"uniform-patterns", "#c0a060"}, {"dyken", "#d04040"},
       {"dyken dynamic", "#e09090"},  {"patterns nested", "#2060c0"},  {"patterns", "#20a0c0"},
       {"tess", "#208040"},           {"arkfpi", "#d04040"},           {"dmr", "#906030"},
-      {"suapt", "#8040a0"}};
+      {"suapt", "#8040a0"},          {"patterns stored", "#40a0ff"},  {"patterns held", "#003070"}};
   const auto found = kColors.find(contestant);
   return found == kColors.end() ? "#000000" : found->second;
 }

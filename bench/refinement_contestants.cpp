@@ -58,11 +58,16 @@ Result<Contestant> Line::make(const std::string& name) const {
       if (name == "dyken packed") options.basis = DykenBasis::kNinePacked;
       return owned(DykenMethod::create(s, options), give_pass);
     }
-    const auto family = name == "patterns nested" ? PatternFamily::kNested : PatternFamily::kMinimal;
-    return owned(PatternMethod::create(s, {.levels = levels_, .family = family}), give_pass);
+    PatternMethodOptions options{.levels = levels_};
+    options.family = name.starts_with("patterns nested") ? PatternFamily::kNested : PatternFamily::kMinimal;
+    options.store = name.ends_with("stored") || name.ends_with("held");
+    options.store_attributes = !positions_only_;
+    // Room for everything, so that nothing needs to be cut.
+    if (options.store) options.triangle_budget = s.triangle_count() << (2 * levels_.max_level);
+    return owned(PatternMethod::create(s, options), give_pass);
   }();
   if (!made) return tl::unexpected(made.error());
-  return Contestant{name, std::move(*made), deforming ? *scene : nullptr};
+  return Contestant{name, std::move(*made), deforming ? *scene : nullptr, name.ends_with("held")};
 }
 
 Line& Line::add(const std::string& name) {

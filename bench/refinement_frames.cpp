@@ -54,9 +54,11 @@ Result<void> FrameStage::draw_frame(Contestant& contestant, int round, const Fra
   materials_->bind();
   targets.begin_faces();
   if (contestant.deforming != nullptr) contestant.deforming->update_surface();
-  return contestant.method->refine(view_of(camera, options.size_px)).and_then([&] {
-    return contestant.method->draw({.stage = options.stage});
-  });
+  if (round == 0 || !contestant.held) {
+    auto refined = contestant.method->refine(view_of(camera, options.size_px));
+    if (!refined) return refined;
+  }
+  return contestant.method->draw({.stage = options.stage});
 }
 
 Result<std::vector<FrameTimes>> FrameStage::time(std::vector<Contestant>& contestants, const FrameOptions& options) {

@@ -18,6 +18,7 @@ struct Contestant {
   std::string name;
   std::unique_ptr<RefinementMethod> method;
   RefinementScene* deforming = nullptr;  ///< update_surface() is part of its frame
+  bool held = false;                     ///< refine() is not, after the first
 };
 
 /// What a contestant's frames took: refine() and draw() until the device was done.

@@ -143,10 +143,17 @@ Result<void> append_published_row(const RefinementBench& bench, const PublishedR
                  {"paper_out", static_cast<double>(published.out)},
                  {"out", static_cast<double>(minimal_triangles(table, topology, given))},
                  {"paper_faster_percent", published.faster_percent}};
+  // Of what the methods have in common, filling pixels, nothing: the table is about their differences.
   Line line(**stage, levels, given);
-  for (const char* name : {"ark", "arkfpi", "dmr", "suapt", "uniform-patterns", "patterns", "patterns nested", "tess"})
+  line.positions_only();
+  for (const char* name : {"ark", "arkfpi", "suapt", "uniform-patterns", "patterns", "patterns nested",
+                           "patterns stored", "patterns held", "tess"})
     line.add(name);
+  // Room for the worst case at deep levels is room for hundreds of thousands of triangles a face.
+  if (levels.max_level <= 4) line.add("dmr");
   FrameOptions options = frames(bench);
+  options.stage = SurfaceStage::kPositions;
+  options.rasterize = false;
   options.budget_s = 0.5;
   return append(rows, std::move(row), line.time(options));
 }
@@ -217,9 +224,11 @@ Rows against_tessellation(const RefinementBench& bench) {
     for (const bool dense : {false, true}) {
       LevelOptions levels{.max_level = kLevel};
       if (dense) levels.criterion = Criterion::kUniform;
-      Line line(**stage, levels);
-      line.add("tess").add("patterns nested").add("patterns");
       for (const bool rasterize : {false, true}) {
+        Line line(**stage, levels);
+        if (!rasterize) line.positions_only();
+        for (const char* name : {"tess", "patterns nested", "patterns", "patterns nested stored", "patterns stored"})
+          line.add(name);
         FrameOptions options = frames(bench);
         options.rasterize = rasterize;
         if (!rasterize) options.stage = SurfaceStage::kPositions;

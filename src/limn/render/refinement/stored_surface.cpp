@@ -107,10 +107,13 @@ Result<StoredSurface> StoredSurface::create(const RefinementScene& scene, const 
   impl->options = options;
   impl->layout = layout_of(scene, options.attributes);
   impl->entry_capacity = selection.entry_capacity();
-  // No pattern has more than two vertices a triangle; gaps hold some more.
-  impl->vertex_capacity = 2 * options.max_triangles;
-  for (const PatternDraw& draw : patterns.draws())
-    impl->vertex_capacity += std::size_t{2} * kLargestBatch * draw.vertices;
+  // No pattern has more than two vertices a triangle, nor any face more than the largest pattern; gaps hold some more.
+  std::size_t largest = 0, gaps = 0;
+  for (const PatternDraw& draw : patterns.draws()) {
+    largest = std::max<std::size_t>(largest, draw.vertices);
+    gaps += std::size_t{2} * kLargestBatch * draw.vertices;
+  }
+  impl->vertex_capacity = std::min(2 * options.max_triangles, scene.face_capacity() * largest) + gaps;
   gl::take_out_of_memory();
   const auto refuse = [&] {
     return fail(ErrorCode::kNoGraphics,
