@@ -62,7 +62,9 @@ Result<void> FrameStage::draw_frame(Contestant& contestant, int round, const Fra
 }
 
 Result<std::vector<FrameTimes>> FrameStage::time(std::vector<Contestant>& contestants, const FrameOptions& options) {
-  const auto targets = RenderTargets::create(options.size_px, options.size_px, 1);
+  // Where nothing is drawn, clearing a picture would be most of a small mesh's frame.
+  const int side_px = options.rasterize ? options.size_px : 16;
+  const auto targets = RenderTargets::create(side_px, side_px, 1);
   if (!targets) return tl::unexpected(targets.error());
   std::vector<std::vector<double>> times(contestants.size());
   if (!options.rasterize) glEnable(GL_RASTERIZER_DISCARD);

@@ -99,7 +99,7 @@ void main() {
   share = silhouette_share(view, sides);
 #elif CRITERION == 1
   share = distance_share(view, distances == vec2(0.0) ? view_numbers.zy : distances);
-#else
+#elif CRITERION == 2
   share = shares[edge];
 #endif
   float needed = tolerance_px > 0.0 ? needed_level(view, edge, view_numbers.x) : float(max_level);

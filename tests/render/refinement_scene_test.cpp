@@ -320,6 +320,19 @@ TEST_F(SceneRefinement, FacesKeepTheirMaterials) {
   }
 }
 
+TEST_F(SceneRefinement, IsStoredWithAsMuchRoomAsTheDeviceHas) {
+  PatternMethodOptions options;
+  options.store = true;
+  const Refiner object = refiner_of(body(Shape::kKnot, 35'000), options);  // to level 3 more than kStoredTriangles
+  RefinementScene scene = scene_of(object);
+  PatternMethod method = method_of(scene, options);
+  const std::size_t room = StoredSurface::most_triangles(scene, method.patterns(), true);
+  ASSERT_TRUE(method.refine(kView));
+  EXPECT_LE(method.triangle_count(), std::min<std::uint64_t>(room, kStoredTriangles));
+  options.triangle_budget = room + 1;
+  EXPECT_FALSE(PatternMethod::create(scene, options));
+}
+
 TEST_F(SceneRefinement, MemoryStaysWithinNinetySixBytesAFace) {
   for (const PatternFamily family : {PatternFamily::kNested, PatternFamily::kMinimal}) {
     for (const std::size_t faces : {10'000u, 100'000u}) {

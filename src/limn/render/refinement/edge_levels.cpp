@@ -15,14 +15,16 @@ namespace {
 /// CRITERION of refine_edges.comp.glsl.
 int shader_criterion(Criterion criterion) {
   if (criterion == Criterion::kSilhouette) return 0;
+  if (criterion == Criterion::kUniform) return 3;
   return criterion == Criterion::kDistance ? 1 : 2;
 }
 
 /// Lets check_levels() look at the options alone.
 constexpr View kAnyView{{}, 1.0f};
 
-bool depends_on_eye(Criterion criterion) {
-  return criterion == Criterion::kSilhouette || criterion == Criterion::kDistance;
+/// Whether the criterion's value is a number an edge that does not depend on the eye.
+bool is_stored(Criterion criterion) {
+  return shader_criterion(criterion) == 2;
 }
 
 }  // namespace
@@ -33,6 +35,7 @@ struct EdgeLevelPass::Impl {
   gl::Buffer levels, shares;
   gl::Texture texture;
   const gl::Program* program = nullptr;
+  std::size_t share_count = 0;
   bool given = false;
 
   ~Impl() {
@@ -55,7 +58,7 @@ Result<EdgeLevelPass> EdgeLevelPass::create(const RefinementScene& scene, const 
   if (!program) return tl::unexpected(program.error());
   impl->program = *program;
   gl::take_out_of_memory();
-  if (!depends_on_eye(options.criterion)) {
+  if (is_stored(options.criterion)) {
     std::vector<float> all;
     for (const Refiner* object : scene.objects()) {
       const auto shares = edge_shares(object->mesh(), object->topology(), {}, kAnyView, options);
@@ -63,6 +66,7 @@ Result<EdgeLevelPass> EdgeLevelPass::create(const RefinementScene& scene, const 
       all.insert(all.end(), shares->begin(), shares->end());
     }
     impl->shares = gl::make_buffer_of(std::span<const float>(all));
+    impl->share_count = all.size();
   }
   impl->levels = gl::make_storage(scene.edge_capacity() * sizeof(std::uint32_t));
   impl->texture = gl::make_uint_texture(impl->levels, 1);
@@ -90,7 +94,7 @@ const gl::Texture& EdgeLevelPass::texture() const {
   return impl_->texture;
 }
 std::size_t EdgeLevelPass::bytes() const {
-  return impl_->scene->edge_capacity() * sizeof(std::uint32_t);
+  return impl_->scene->edge_capacity() * sizeof(std::uint32_t) + impl_->share_count * sizeof(float);
 }
 
 void EdgeLevelPass::run() const {

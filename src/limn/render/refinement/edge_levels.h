@@ -11,7 +11,8 @@
 namespace limn {
 
 /// The levels of all edges of a scene, decided on the graphics device, once an edge: the twin of edge_levels()
-/// (refine/levels.h), in units of kLevelUnit. 4 bytes an edge of every instance.
+/// (refine/levels.h), in units of kLevelUnit. 4 bytes an edge of every instance;
+/// for criteria that do not depend on the eye 4 more an edge of every object.
 class EdgeLevelPass {
  public:
   /// Errors: those of edge_levels() for the options; kNoGraphics when the device cannot do or hold it.

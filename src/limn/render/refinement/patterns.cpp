@@ -29,7 +29,11 @@ Result<PatternMethod> PatternMethod::create(RefinementScene& scene, const Patter
       SurfacePrograms({.vertex = "refine_pattern.vert.glsl", .defines = {nested_define(options.family)}});
   method.selection_ = std::make_unique<PatternSelection>(std::move(*selection));
   if (!options.store) return method;
-  const std::uint64_t bound = options.triangle_budget > 0 ? options.triangle_budget : kStoredTriangles;
+  std::uint64_t bound = options.triangle_budget;
+  if (bound == 0) {
+    const std::uint64_t room = StoredSurface::most_triangles(scene, *method.patterns_, options.store_attributes);
+    bound = std::min(kStoredTriangles, room);
+  }
   StoredSurfaceOptions stored;
   stored.family = options.family;
   stored.blend = options.blend;

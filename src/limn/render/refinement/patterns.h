@@ -20,7 +20,8 @@ struct PatternMethodOptions {
   std::uint64_t triangle_budget = 0;
   /// Where the surface's points are computed: in the vertex stage of every pass, which needs no memory for them; or
   /// once a frame into memory (StoredSurface), for the passes to draw from. Storing needs a bound: the budget, or where
-  /// there is none kStoredTriangles; a frame that would exceed it is cut as for a budget.
+  /// there is none kStoredTriangles, or fewer if the device's buffers hold fewer; a frame that would exceed it is cut
+  /// as for a budget.
   bool store = false;
   bool store_attributes = true;  ///< false: for passes of positions alone
 };

@@ -44,6 +44,22 @@ std::vector<std::uint32_t> read_words(unsigned buffer, std::size_t count) {
   return words;
 }
 
+constexpr std::size_t kVerticesATriangle = 2;  // no pattern has more
+
+/// Vertices that gaps between patterns may hold.
+std::size_t gap_vertices(const PatternBuffers& patterns) {
+  std::size_t count = 0;
+  for (const PatternDraw& draw : patterns.draws())
+    count += std::size_t{2} * kLargestBatch * draw.vertices;
+  return count;
+}
+
+/// Of one buffer on the device.
+std::size_t most_texels() {
+  const gl::Limits limits = gl::limits();
+  return std::min<std::size_t>(limits.storage_bytes / (kTexelWords * kUint), limits.buffer_texels);
+}
+
 }  // namespace
 
 struct StoredSurface::Impl {
@@ -107,26 +123,30 @@ Result<StoredSurface> StoredSurface::create(const RefinementScene& scene, const 
   impl->options = options;
   impl->layout = layout_of(scene, options.attributes);
   impl->entry_capacity = selection.entry_capacity();
-  // No pattern has more than two vertices a triangle, nor any face more than the largest pattern; gaps hold some more.
-  std::size_t largest = 0, gaps = 0;
-  for (const PatternDraw& draw : patterns.draws()) {
+  // No face has more vertices than the largest pattern.
+  std::size_t largest = 0;
+  for (const PatternDraw& draw : patterns.draws())
     largest = std::max<std::size_t>(largest, draw.vertices);
-    gaps += std::size_t{2} * kLargestBatch * draw.vertices;
-  }
-  impl->vertex_capacity = std::min(2 * options.max_triangles, scene.face_capacity() * largest) + gaps;
+  impl->vertex_capacity =
+      std::min(kVerticesATriangle * options.max_triangles, scene.face_capacity() * largest) + gap_vertices(patterns);
   gl::take_out_of_memory();
   const auto refuse = [&] {
     return fail(ErrorCode::kNoGraphics,
                 "the graphics device cannot store " + std::to_string(options.max_triangles) + " refined triangles",
                 "lower the budget of triangles");
   };
-  const gl::Limits limits = gl::limits();
-  const std::size_t texels = impl->vertex_capacity * impl->layout.texels;
-  if (texels * kTexelWords * kUint > limits.storage_bytes || texels > limits.buffer_texels) return refuse();
+  if (impl->vertex_capacity * impl->layout.texels > most_texels()) return refuse();
   if (auto loaded = impl->load_programs(); !loaded) return tl::unexpected(loaded.error());
   impl->allocate();
   if (gl::take_out_of_memory()) return refuse();
   return StoredSurface(std::move(impl));
+}
+
+std::size_t StoredSurface::most_triangles(const RefinementScene& scene, const PatternBuffers& patterns,
+                                          bool attributes) {
+  const std::size_t vertices = most_texels() / layout_of(scene, attributes).texels;
+  const std::size_t gaps = gap_vertices(patterns);
+  return vertices > gaps ? (vertices - gaps) / kVerticesATriangle : 0;
 }
 
 StoredSurface::StoredSurface(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -26,6 +26,8 @@ class StoredSurface {
   /// Errors: kNoGraphics when the device cannot hold it.
   static Result<StoredSurface> create(const RefinementScene& scene, const PatternBuffers& patterns,
                                       const PatternSelection& selection, const StoredSurfaceOptions& options);
+  /// The most refined triangles that create() has room for on this device, memory apart; needs a current context.
+  static std::size_t most_triangles(const RefinementScene& scene, const PatternBuffers& patterns, bool attributes);
   ~StoredSurface();
   StoredSurface(StoredSurface&& other) noexcept;
   StoredSurface& operator=(StoredSurface&& other) noexcept;
