@@ -2,7 +2,7 @@
 // A vertex of the pre-tessellated patch P_m on the surface of one refined triangle, whose coefficients are uniforms: basis functions,
 // sampled at two levels, come from a texture and are blended (Dyken et al. 2008, section 6.4, equation (14)). TEN: ten functions in
 // three texels; PACKED: eight in one texel; else eight in two. Without BLENDED, levels are rounded up.
-// render/refinement/basis_table.h has the layout.
+// render/refinement/published/basis_table.h has the layout.
 
 #include "refine_scene.glsl"
 #include "refine_levels.glsl"

@@ -1,4 +1,4 @@
-// A face's corners and edges as uniforms, set anew for every face: the twin of FaceUniforms in render/refinement/per_triangle.cpp.
+// A face's corners and edges as uniforms, set anew for every face: the twin of FaceUniforms in render/refinement/published/per_triangle.cpp.
 // Vertices and edges of the face are 0, 1 and 2.
 
 #ifdef HAS_COLORS

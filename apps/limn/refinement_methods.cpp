@@ -1,14 +1,14 @@
 #include "refinement_methods.h"
 
-#include "limn/render/refinement/ark.h"
-#include "limn/render/refinement/arkfpi.h"
-#include "limn/render/refinement/dmr.h"
-#include "limn/render/refinement/dyken.h"
 #include "limn/render/refinement/hardware_tessellation.h"
 #include "limn/render/refinement/patterns.h"
+#include "limn/render/refinement/published/ark.h"
+#include "limn/render/refinement/published/arkfpi.h"
+#include "limn/render/refinement/published/dmr.h"
+#include "limn/render/refinement/published/dyken.h"
+#include "limn/render/refinement/published/suapt.h"
+#include "limn/render/refinement/published/uniform_patterns.h"
 #include "limn/render/refinement/static_mesh.h"
-#include "limn/render/refinement/suapt.h"
-#include "limn/render/refinement/uniform_patterns.h"
 
 namespace limn::cli {
 namespace {

@@ -1,5 +1,5 @@
 // Dyken's pipeline against the blend it was published with, on the CPU.
-#include "limn/render/refinement/dyken.h"
+#include "limn/render/refinement/published/dyken.h"
 
 #include <algorithm>
 #include <array>

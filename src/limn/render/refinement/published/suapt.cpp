@@ -1,9 +1,9 @@
-#include "limn/render/refinement/suapt.h"
+#include "limn/render/refinement/published/suapt.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "limn/render/refinement/grouped_method.h"
+#include "limn/render/refinement/published/grouped_method.h"
 
 namespace limn {
 namespace {

@@ -1,4 +1,4 @@
-#include "limn/render/refinement/basis_table.h"
+#include "limn/render/refinement/published/basis_table.h"
 
 #include <array>
 #include <cassert>

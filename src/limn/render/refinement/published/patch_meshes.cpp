@@ -1,4 +1,4 @@
-#include "limn/render/refinement/patch_meshes.h"
+#include "limn/render/refinement/published/patch_meshes.h"
 
 #include <cstdint>
 #include <epoxy/gl.h>

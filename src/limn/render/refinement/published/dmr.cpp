@@ -1,4 +1,4 @@
-#include "limn/render/refinement/dmr.h"
+#include "limn/render/refinement/published/dmr.h"
 
 #include <array>
 #include <cassert>

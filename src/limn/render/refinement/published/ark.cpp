@@ -1,11 +1,11 @@
-#include "limn/render/refinement/ark.h"
+#include "limn/render/refinement/published/ark.h"
 
 #include <utility>
 #include <vector>
 
-#include "limn/render/refinement/per_triangle.h"
-#include "limn/render/refinement/side_patterns.h"
-#include "limn/render/refinement/whole_levels.h"
+#include "limn/render/refinement/published/per_triangle.h"
+#include "limn/render/refinement/published/side_patterns.h"
+#include "limn/render/refinement/published/whole_levels.h"
 
 namespace limn {
 

@@ -1,4 +1,4 @@
-#include "limn/render/refinement/whole_levels.h"
+#include "limn/render/refinement/published/whole_levels.h"
 
 #include <algorithm>
 #include <cassert>

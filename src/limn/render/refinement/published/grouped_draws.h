@@ -11,7 +11,7 @@
 #include "limn/gl/objects.h"
 #include "limn/refine/patterns/table.h"
 #include "limn/render/refinement/method.h"
-#include "limn/render/refinement/pattern_store.h"
+#include "limn/render/refinement/published/pattern_store.h"
 
 namespace limn {
 

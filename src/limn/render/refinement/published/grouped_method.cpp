@@ -1,4 +1,4 @@
-#include "limn/render/refinement/grouped_method.h"
+#include "limn/render/refinement/published/grouped_method.h"
 
 #include <utility>
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "limn/mesh/ids.h"
-#include "limn/render/refinement/basis_table.h"
 #include "limn/render/refinement/edge_levels.h"
 #include "limn/render/refinement/method.h"
+#include "limn/render/refinement/published/basis_table.h"
 
 namespace limn {
 

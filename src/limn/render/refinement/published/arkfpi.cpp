@@ -1,8 +1,8 @@
-#include "limn/render/refinement/arkfpi.h"
+#include "limn/render/refinement/published/arkfpi.h"
 
 #include <utility>
 
-#include "limn/render/refinement/grouped_method.h"
+#include "limn/render/refinement/published/grouped_method.h"
 
 namespace limn {
 namespace {

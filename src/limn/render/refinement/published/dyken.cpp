@@ -1,4 +1,4 @@
-#include "limn/render/refinement/dyken.h"
+#include "limn/render/refinement/published/dyken.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include "limn/gl/compute.h"
 #include "limn/gl/objects.h"
 #include "limn/render/compaction.h"
-#include "limn/render/refinement/patch_meshes.h"
+#include "limn/render/refinement/published/patch_meshes.h"
 
 namespace limn {
 namespace {

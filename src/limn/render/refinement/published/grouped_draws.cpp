@@ -1,4 +1,4 @@
-#include "limn/render/refinement/grouped_draws.h"
+#include "limn/render/refinement/published/grouped_draws.h"
 
 #include <array>
 #include <cassert>

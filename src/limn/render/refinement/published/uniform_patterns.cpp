@@ -1,12 +1,12 @@
-#include "limn/render/refinement/uniform_patterns.h"
+#include "limn/render/refinement/published/uniform_patterns.h"
 
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "limn/refine/levels.h"
-#include "limn/render/refinement/per_triangle.h"
-#include "limn/render/refinement/side_patterns.h"
+#include "limn/render/refinement/published/per_triangle.h"
+#include "limn/render/refinement/published/side_patterns.h"
 
 namespace limn {
 

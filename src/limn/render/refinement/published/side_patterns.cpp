@@ -1,4 +1,4 @@
-#include "limn/render/refinement/side_patterns.h"
+#include "limn/render/refinement/published/side_patterns.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "limn/render/refinement/pattern_store.h"
+#include "limn/render/refinement/published/pattern_store.h"
 
 #include <algorithm>
 #include <epoxy/gl.h>

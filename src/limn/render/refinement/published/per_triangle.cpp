@@ -1,4 +1,4 @@
-#include "limn/render/refinement/per_triangle.h"
+#include "limn/render/refinement/published/per_triangle.h"
 
 #include <algorithm>
 #include <cassert>

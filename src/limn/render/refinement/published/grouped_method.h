@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "limn/gl/context.h"
-#include "limn/render/refinement/grouped_draws.h"
-#include "limn/render/refinement/side_patterns.h"
-#include "limn/render/refinement/whole_levels.h"
+#include "limn/render/refinement/published/grouped_draws.h"
+#include "limn/render/refinement/published/side_patterns.h"
+#include "limn/render/refinement/published/whole_levels.h"
 
 namespace limn {
 
