@@ -125,6 +125,7 @@ Result<Drawn> draw_from_cpu(Session& session, const RenderFlags& flags, const Me
 
 Result<Drawn> draw_on_device(Session& session, const RenderFlags& flags, Mesh mesh, const Camera& camera,
                              gl::Context& context) {
+  if (const Result<void> fit = check_extent(mesh); !fit) return tl::unexpected(about(fit.error(), flags.input.path));
   const double scale = unit_scale(mesh, camera);
   for (Vec3& p : mesh.positions)
     p = scaled(p, scale);
@@ -162,6 +163,10 @@ Result<void> report(Session& session, const RenderFlags& flags, const LoadedMesh
                     const gl::Context& context) {
   session.say(fmt::format("{}: {}x{}, {}, {:.1f} ms ({})", flags.output, flags.size.width, flags.size.height,
                           counted(drawn.triangles, "triangle"), drawn.time_ms, context.renderer()));
+  if (flags.budget > 0 && drawn.triangles > flags.budget) {
+    session.say(fmt::format("{}: over the budget of {}: the mesh as it is has as many", flags.output,
+                            counted(flags.budget, "triangle")));
+  }
   if (!session.json()) return {};
   nlohmann::ordered_json data = {
       {"input", flags.input.path},      {"output", flags.output},      {"method", method_name(drawn.method)},
@@ -199,7 +204,7 @@ Run declare_render(OptionTable& table) {
       .choice("--method", flags->method, render_methods(),
               "coarse (default): as it is; refine: on the CPU; auto: as it goes best")
       .value = "NAME";
-  table.count("--budget", flags->budget, 1, 1'000'000'000, "the most triangles that --method patterns draws");
+  table.count("--budget", flags->budget, 1, 1'000'000'000, "the most triangles --method patterns refines to");
   table.parsed("--size", "WxH", flags->size, parse_size, "of the picture (default 1024x1024)");
   table.toggle("--wireframe", flags->options.wireframe, "the edges of the triangles drawn");
   table.toggle("--levels", flags->level_lines, "the model's edges coloured by refinement level, blue 0 to yellow M");

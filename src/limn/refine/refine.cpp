@@ -8,18 +8,15 @@
 #include "limn/mesh/normals.h"
 
 namespace limn {
-namespace {
 
-/// Sums of control points must stay finite.
 Result<void> check_extent(const Mesh& mesh) {
+  if (mesh.faces.empty()) return {};
   constexpr float kLargest = 1e37f;
   const Bounds bounds = face_bounds(mesh);
   const Vec3 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
   if (std::max({largest.x, largest.y, largest.z}) <= kLargest) return {};
   return fail(ErrorCode::kUnsuitable, "coordinates beyond 1e37 leave no room for curves", "scale the mesh down");
 }
-
-}  // namespace
 
 Result<Refiner> Refiner::create(Mesh mesh, const RefineOptions& options) {
   if (mesh.faces.empty()) {

@@ -32,6 +32,9 @@ struct RefineOptions {
 /// max_triangles would result), kInvalidArgument, kCancelled.
 Result<Refinement> refine(const Mesh& mesh, const View& view, const RefineOptions& options = {});
 
+/// Whether sums of the mesh's control points stay finite: no coordinate beyond 1e37. Errors: kUnsuitable.
+Result<void> check_extent(const Mesh& mesh);
+
 /// What refine() computes from the mesh alone, kept for many views of one mesh.
 class Refiner {
  public:

@@ -109,6 +109,8 @@ void report_levels(const Topology& topology, const std::vector<std::uint16_t>& u
 
 Result<Refinement> refine_on_device(gl::Context& context, const Mesh& mesh, const View& view,
                                     const RefineOptions& options) {
+  // What the CPU would refuse for its size is refused here too, though it would fit once scaled.
+  if (auto fit = check_extent(mesh); !fit) return tl::unexpected(fit.error());
   const double factor = unit_scale(mesh);
   Mesh near_unit = mesh;
   scale_positions(near_unit, factor);
@@ -140,7 +142,11 @@ Result<Refinement> refine_on_device(gl::Context& context, const Mesh& mesh, cons
   const auto stored = StoredSurface::create(
       *scene, *patterns, *selection,
       {.family = options.family, .blend = options.blend, .max_triangles = static_cast<std::size_t>(triangles)});
-  if (!stored) return tl::unexpected(stored.error());
+  if (!stored) {
+    return fail(ErrorCode::kNoGraphics,
+                fmt::format("the graphics device has no room for {} refined triangles", triangles),
+                "lower the maximal level, or refine on the CPU");
+  }
   stored->run(*levels, *selection);
   Refinement result;
   result.mesh = stored->read(*selection);
