@@ -15,6 +15,7 @@
 #include "limn/mesh/shapes.h"
 #include "limn/refine/refine.h"
 
+#include "refine/random_levels.h"
 #include "support/checks.h"
 #include "support/stable.h"
 
@@ -22,17 +23,6 @@ namespace limn {
 namespace {
 
 constexpr PatternFamily kFamilies[] = {PatternFamily::kNested, PatternFamily::kMinimal};
-
-std::vector<float> random_levels(Random& random, std::size_t edges, int max_level) {
-  std::vector<float> levels(edges);
-  for (float& level : levels) {
-    // Integers and zeros often, since that is where the cases change.
-    const double s = random.uniform(0.0, max_level);
-    level = static_cast<float>(random.below(3) == 0 ? std::floor(s) : s);
-    if (random.below(3) == 0) level = 0;
-  }
-  return levels;
-}
 
 int rounded_up(float level) {
   return static_cast<int>(std::ceil(level));

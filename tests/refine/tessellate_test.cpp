@@ -11,6 +11,7 @@
 #include "limn/mesh/shapes.h"
 #include "limn/refine/refine.h"
 
+#include "refine/random_levels.h"
 #include "support/checks.h"
 #include "support/stable.h"
 
@@ -19,17 +20,6 @@ namespace {
 
 Mesh shape(Shape kind, std::size_t faces) {
   return make_shape(kind, {.faces = faces}).value();
-}
-
-std::vector<float> random_levels(Random& random, std::size_t edges, int max_level) {
-  std::vector<float> levels(edges);
-  for (float& level : levels) {
-    // Integers and zeros often, since that is where the cases change.
-    const double s = random.uniform(0.0, max_level);
-    level = static_cast<float>(random.below(3) == 0 ? std::floor(s) : s);
-    if (random.below(3) == 0) level = 0;
-  }
-  return levels;
 }
 
 Refinement refined(const Mesh& mesh, std::uint64_t seed, int max_level = 3, Blend blend = Blend::kSurplus) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -122,22 +123,35 @@ TEST_F(Refinement, FindsTheLevelsOfTheCpu) {
   EXPECT_LT(static_cast<double>(differ), 1e-3 * static_cast<double>(all)) << differ;
 }
 
-/// Faces by where their corners are, whatever their order; positions to a tolerance.
+/// Each triangle of one has its own in the other, corner by corner, within a tolerance; whatever their order.
 void expect_same_surface(const Mesh& a, const Mesh& b, double tolerance) {
   ASSERT_EQ(a.faces.size(), b.faces.size());
-  const auto corners = [](const Mesh& mesh) {
-    std::vector<Vec3> middles;
+  using Corners = std::array<Vec3, 3>;
+  const auto sorted = [](const Mesh& mesh) {
+    std::vector<Corners> all;
     for (const Triangle& t : mesh.faces)
-      middles.push_back((mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0f);
-    return middles;
+      all.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
+    std::sort(all.begin(), all.end(), [](const Corners& l, const Corners& r) { return l[0].x < r[0].x; });
+    return all;
   };
-  std::vector<Vec3> left = corners(a), right = corners(b);
-  DVec3 sum_left(0.0), sum_right(0.0);
-  for (const Vec3& p : left)
-    sum_left += DVec3(p);
-  for (const Vec3& p : right)
-    sum_right += DVec3(p);
-  EXPECT_LT(glm::length(sum_left - sum_right) / static_cast<double>(left.size()), tolerance);
+  const std::vector<Corners> left = sorted(a), right = sorted(b);
+  const auto near = [tolerance](const Corners& l, const Corners& r) {
+    return std::equal(l.begin(), l.end(), r.begin(), [tolerance](const Vec3& p, const Vec3& q) {
+      return glm::length(DVec3(p) - DVec3(q)) <= tolerance;
+    });
+  };
+  std::vector<bool> taken(right.size(), false);
+  std::size_t low = 0;
+  for (const Corners& corners : left) {
+    while (low < right.size() && double{right[low][0].x} < double{corners[0].x} - tolerance)
+      ++low;
+    std::size_t at = low;
+    while (at < right.size() && double{right[at][0].x} <= double{corners[0].x} + tolerance &&
+           (taken[at] || !near(corners, right[at])))
+      ++at;
+    ASSERT_TRUE(at < right.size() && near(corners, right[at])) << "a triangle of one is not in the other";
+    taken[at] = true;
+  }
 }
 
 TEST_F(Refinement, StoresWhatItDraws) {

@@ -121,4 +121,11 @@ Result<const Program*> Context::program(const ProgramFiles& files) {
   return program.get();
 }
 
+Result<const Program*> Context::compute_program(const std::string& file, std::vector<std::string> defines) {
+  ProgramFiles files;
+  files.compute = file;
+  files.defines = std::move(defines);
+  return program(files);
+}
+
 }  // namespace limn::gl

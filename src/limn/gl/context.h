@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "limn/base/result.h"
 #include "limn/gl/program.h"
@@ -43,6 +44,9 @@ class Context {
   /// A linked program, made when first asked for and kept; valid while the context lives.
   /// Errors: kNoGraphics with the driver's log, kUnreadable when a file of the shader folder cannot be read.
   Result<const Program*> program(const ProgramFiles& files);
+
+  /// A program that computes, of one shader file. Errors: as program().
+  Result<const Program*> compute_program(const std::string& file, std::vector<std::string> defines = {});
 
  private:
   struct Impl;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -96,6 +97,15 @@ void attach_uints(const VertexArray& array, const Buffer& buffer, const UintAttr
 
 /// Feeds one uint an instance (from the draw's base instance on) to an attribute.
 void attach_uint_per_instance(const VertexArray& array, const Buffer& buffer, unsigned location);
+
+/// As glMultiDrawElementsIndirect reads it.
+struct DrawElementsCommand {
+  std::uint32_t index_count = 0;
+  std::uint32_t instance_count = 1;
+  std::uint32_t first_index = 0;
+  std::int32_t base_vertex = 0;
+  std::uint32_t base_instance = 0;
+};
 
 /// Whether the device ran out of memory since errors were last asked for; takes back every pending error.
 bool take_out_of_memory();

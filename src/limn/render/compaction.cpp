@@ -68,10 +68,9 @@ struct Compactor::Impl {
   }
 
   Result<void> load(const gl::Program*& program, const char* name, bool entries_written = false) {
-    gl::ProgramFiles files;
-    files.compute = name;
-    if (entries_written && options.copies) files.defines = {"COPIES 1"};
-    auto made = context->program(files);
+    std::vector<std::string> defines;
+    if (entries_written && options.copies) defines.emplace_back("COPIES 1");
+    const auto made = context->compute_program(name, std::move(defines));
     if (!made) return tl::unexpected(made.error());
     program = *made;
     return {};

@@ -95,10 +95,7 @@ struct SceneExtractor::Impl {
   std::size_t edge_count() const { return first_edge.back(); }
 
   Result<void> load(const gl::Program*& program, const char* name, std::vector<std::string> defines = {}) const {
-    gl::ProgramFiles files;
-    files.compute = name;
-    files.defines = std::move(defines);
-    const auto made = context->program(files);
+    const auto made = context->compute_program(name, std::move(defines));
     if (!made) return tl::unexpected(made.error());
     program = *made;
     return {};

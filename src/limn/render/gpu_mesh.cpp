@@ -14,15 +14,6 @@ constexpr std::size_t kGrain = 1 << 14;
 constexpr std::size_t kFacesADraw = std::size_t{1} << 28;  // a draw's count of indices is a signed 32-bit number
 constexpr std::size_t kMostFaces = 0xffffffffu / 3;        // and its first index an unsigned one
 
-/// As glMultiDrawElementsIndirect reads it.
-struct DrawCommand {
-  std::uint32_t index_count = 0;
-  std::uint32_t instance_count = 1;
-  std::uint32_t first_index = 0;
-  std::int32_t base_vertex = 0;
-  std::uint32_t base_instance = 0;
-};
-
 template <class T>
 bool by_vertex(const CornerAttribute<T>& attribute) {
   return attribute.empty() || attribute.indices.empty();
@@ -74,7 +65,7 @@ std::vector<FaceId> order_by_material(const Mesh& mesh, std::vector<Batch>& batc
 /// The draws of all batches. A batch's material reaches its vertices as an attribute that advances by instance: each
 /// command begins at an instance of its own, so vertices that materials share need not be split.
 struct Commands {
-  std::vector<DrawCommand> draws;
+  std::vector<gl::DrawElementsCommand> draws;
   std::vector<std::uint32_t> materials;  ///< one a draw
 };
 
@@ -82,7 +73,7 @@ Commands make_commands(std::span<const Batch> batches) {
   Commands commands;
   for (const Batch& batch : batches) {
     for (std::size_t done = 0; done < batch.face_count; done += kFacesADraw) {
-      DrawCommand draw;
+      gl::DrawElementsCommand draw;
       draw.index_count = static_cast<std::uint32_t>(3 * std::min(kFacesADraw, batch.face_count - done));
       draw.first_index = static_cast<std::uint32_t>(3 * (batch.first_face + done));
       draw.base_instance = static_cast<std::uint32_t>(commands.draws.size());
@@ -153,7 +144,7 @@ Result<GpuMesh> GpuMesh::upload(const Mesh& mesh, std::span<const Vec3> points) 
   gpu.faces_ = gl::make_buffer_of(faces);
   glVertexArrayElementBuffer(gpu.array_.id(), gpu.faces_.id());
   const Commands commands = make_commands(batches);
-  gpu.commands_ = gl::make_buffer_of(std::span<const DrawCommand>(commands.draws));
+  gpu.commands_ = gl::make_buffer_of(std::span<const gl::DrawElementsCommand>(commands.draws));
   gpu.materials_ = gl::make_buffer_of(std::span<const std::uint32_t>(commands.materials));
   gpu.command_count_ = static_cast<int>(commands.draws.size());
   if (gpu.command_count_ > 0) gl::attach_uint_per_instance(gpu.array_, gpu.materials_, 4);

@@ -42,8 +42,11 @@ Result<void> check_picture(const RenderOptions& options) {
 double unit_scale(const Mesh& mesh, const Camera& camera) {
   const double diagonal = face_bounds(mesh).diagonal();
   const double size = diagonal > 0.0 ? diagonal : glm::length(DVec3(camera.target) - DVec3(camera.eye));
-  if (size > 1e-3 && size < 1e3) return 1.0;
-  return std::ldexp(1.0, -std::ilogb(size));
+  return unit_scale(size);
+}
+
+double unit_scale(double size) {
+  return size > 1e-3 && size < 1e3 ? 1.0 : std::ldexp(1.0, -std::ilogb(size));
 }
 
 Vec3 scaled(const Vec3& point, double factor) {

@@ -18,6 +18,8 @@ Result<void> check_picture(const RenderOptions& options);
 /// Squares and products in a shader are floats: a model in kilometres or nanometres has to come near unit size before
 /// it is drawn. A mesh of one point is as large as it is far.
 double unit_scale(const Mesh& mesh, const Camera& camera);
+/// The same for what is so large. \pre size > 0
+double unit_scale(double size);
 
 Vec3 scaled(const Vec3& point, double factor);
 Camera scaled(const Camera& camera, double factor);

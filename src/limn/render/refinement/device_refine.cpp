@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "limn/mesh/topology.h"
+#include "limn/render/picture.h"
 #include "limn/render/refinement/edge_levels.h"
 #include "limn/render/refinement/pattern_buffers.h"
 #include "limn/render/refinement/pattern_selection.h"
@@ -17,22 +18,16 @@ namespace {
 
 constexpr float kSameAttribute = 1e-5f;
 
-/// Shaders square lengths in float: the mesh must be near unit size. By a power of two, which changes no digit.
-double unit_scale(const Mesh& mesh) {
-  const double diagonal = face_bounds(mesh).diagonal();
-  return diagonal > 0.0 && std::isfinite(diagonal) ? std::ldexp(1.0, -std::ilogb(diagonal)) : 1.0;
-}
-
 void scale_positions(Mesh& mesh, double factor) {
   for (Vec3& p : mesh.positions)
-    p = Vec3(DVec3(p) * factor);
+    p = scaled(p, factor);
 }
 
-View scaled(View view, double factor) {
+View scaled_view(View view, double factor) {
   if (view.eye.orthographic) {
     view.pixels_per_unit = static_cast<float>(double{view.pixels_per_unit} / factor);
   } else {
-    view.eye.at = Vec3(DVec3(view.eye.at) * factor);
+    view.eye.at = scaled(view.eye.at, factor);
   }
   return view;
 }
@@ -111,12 +106,13 @@ Result<Refinement> refine_on_device(gl::Context& context, const Mesh& mesh, cons
                                     const RefineOptions& options) {
   // What the CPU would refuse for its size is refused here too, though it would fit once scaled.
   if (auto fit = check_extent(mesh); !fit) return tl::unexpected(fit.error());
-  const double factor = unit_scale(mesh);
+  const double diagonal = face_bounds(mesh).diagonal();
+  const double factor = diagonal > 0.0 && std::isfinite(diagonal) ? unit_scale(diagonal) : 1.0;
   Mesh near_unit = mesh;
   scale_positions(near_unit, factor);
   const auto refiner = Refiner::create(std::move(near_unit), options);
   if (!refiner) return tl::unexpected(refiner.error());
-  const View unit_view = scaled(view, factor);
+  const View unit_view = scaled_view(view, factor);
   LevelOptions levels_asked = options.levels;
   levels_asked.near_distance = static_cast<float>(double{levels_asked.near_distance} * factor);
   levels_asked.far_distance = static_cast<float>(double{levels_asked.far_distance} * factor);

@@ -51,10 +51,8 @@ Result<EdgeLevelPass> EdgeLevelPass::create(const RefinementScene& scene, const 
   for (const Refiner* object : scene.objects()) {
     if (auto good = check_levels(object->mesh(), kAnyView, options); !good) return tl::unexpected(good.error());
   }
-  gl::ProgramFiles files;
-  files.compute = "refine_edges.comp.glsl";
-  files.defines = {"CRITERION " + std::to_string(shader_criterion(options.criterion))};
-  const auto program = scene.context().program(files);
+  const auto program = scene.context().compute_program(
+      "refine_edges.comp.glsl", {"CRITERION " + std::to_string(shader_criterion(options.criterion))});
   if (!program) return tl::unexpected(program.error());
   impl->program = *program;
   gl::take_out_of_memory();

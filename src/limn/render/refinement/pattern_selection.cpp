@@ -51,10 +51,7 @@ struct PatternSelection::Impl {
         {&sort, "refine_sort.comp.glsl"},           {&budget, "refine_budget.comp.glsl"},
         {&take_cut, "refine_cut.comp.glsl"}};
     for (const auto& [program, name] : all) {
-      gl::ProgramFiles files;
-      files.compute = name;
-      files.defines = {nested_define(family)};
-      const auto made = scene->context().program(files);
+      const auto made = scene->context().compute_program(name, {nested_define(family)});
       if (!made) return tl::unexpected(made.error());
       *program = *made;
       (*program)->set("face_capacity", static_cast<unsigned>(capacity()));
@@ -81,15 +78,8 @@ struct PatternSelection::Impl {
   /// Pattern vertices, and so many entries an instance.
   gl::VertexArray instance_array(int entries) const {
     gl::VertexArray array = gl::make_vertex_array();
-    const auto attach = [&array](unsigned location, const gl::Buffer& buffer, int count, unsigned divisor) {
-      glVertexArrayVertexBuffer(array.id(), location, buffer.id(), 0, count * GLsizei{4});
-      glVertexArrayAttribIFormat(array.id(), location, count, GL_UNSIGNED_INT, 0);
-      glVertexArrayAttribBinding(array.id(), location, location);
-      glVertexArrayBindingDivisor(array.id(), location, divisor);
-      glEnableVertexArrayAttrib(array.id(), location);
-    };
-    if (patterns->vertices()) attach(0, patterns->vertices(), 1, 0);
-    attach(1, keys, entries, 1);
+    if (patterns->vertices()) gl::attach_uints(array, patterns->vertices(), {.location = 0});
+    gl::attach_uints(array, keys, {.location = 1, .components = entries, .per_instance = true});
     glVertexArrayElementBuffer(array.id(), patterns->indices().id());
     return array;
   }

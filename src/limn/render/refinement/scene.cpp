@@ -257,9 +257,7 @@ struct RefinementScene::Impl {
   Result<void> load_programs() {
     if (!options.deforming) return {};
     const auto load = [this](const gl::Program*& program, const char* name) -> Result<void> {
-      gl::ProgramFiles files;
-      files.compute = name;
-      const auto made = context->program(files);
+      const auto made = context->compute_program(name);
       if (!made) return tl::unexpected(made.error());
       program = *made;
       return {};

@@ -15,22 +15,13 @@
 namespace limn {
 namespace {
 
-/// As glMultiDrawElementsIndirect reads it.
-struct DrawCommand {
-  std::uint32_t index_count = 0;
-  std::uint32_t instance_count = 0;
-  std::uint32_t first_index = 0;
-  std::int32_t base_vertex = 0;
-  std::uint32_t base_instance = 0;
-};
-
 /// All objects' meshes, one after the other, their faces by material.
 struct Upload {
   std::vector<Vec3> positions, normals;
   std::vector<Vec2> uvs;
   std::vector<Vec4> colors;
   std::vector<Triangle> faces;
-  std::vector<DrawCommand> commands;
+  std::vector<gl::DrawElementsCommand> commands;
   std::vector<std::array<std::uint32_t, 2>> entries;
   std::uint64_t triangles = 0;
 };
@@ -64,7 +55,7 @@ void append_object(const Mesh& mesh, std::span<const std::uint32_t> instances, s
   for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
     while (end < order.size() && material_of(order[end]) == material_of(order[begin]))
       ++end;
-    DrawCommand command;
+    gl::DrawElementsCommand command;
     command.index_count = static_cast<std::uint32_t>(3 * (end - begin));
     command.instance_count = static_cast<std::uint32_t>(instances.size());
     command.first_index = static_cast<std::uint32_t>(3 * (upload.faces.size() + begin));
@@ -85,15 +76,6 @@ std::size_t attach(const gl::VertexArray& array, gl::Buffer& buffer, const std::
   if (buffer)
     gl::attach_attribute(array, buffer, {location, static_cast<int>(sizeof(T) / sizeof(float)), 0, sizeof(T), false});
   return values.size() * sizeof(T);
-}
-
-void attach_entries(const gl::VertexArray& array, const gl::Buffer& entries) {
-  constexpr unsigned kLocation = 4;  // static_mesh.vert.glsl
-  glVertexArrayVertexBuffer(array.id(), kLocation, entries.id(), 0, 8);
-  glVertexArrayAttribIFormat(array.id(), kLocation, 2, GL_UNSIGNED_INT, 0);
-  glVertexArrayAttribBinding(array.id(), kLocation, kLocation);
-  glVertexArrayBindingDivisor(array.id(), kLocation, 1);
-  glEnableVertexArrayAttrib(array.id(), kLocation);
 }
 
 tl::unexpected<Error> too_many(std::uint64_t faces) {
@@ -133,9 +115,11 @@ Result<StaticMeshMethod> StaticMeshMethod::create(RefinementScene& scene, std::s
   if (scene.has_colors()) method.bytes_ += attach(method.array_, method.colors_, upload.colors, 3);
   method.indices_ = gl::make_buffer_of(std::span<const Triangle>(upload.faces));
   method.entries_ = gl::make_buffer_of(std::span<const std::array<std::uint32_t, 2>>(upload.entries));
-  method.commands_ = gl::make_buffer_of(std::span<const DrawCommand>(upload.commands));
+  method.commands_ = gl::make_buffer_of(std::span<const gl::DrawElementsCommand>(upload.commands));
   if (method.indices_) glVertexArrayElementBuffer(method.array_.id(), method.indices_.id());
-  if (method.entries_) attach_entries(method.array_, method.entries_);
+  // static_mesh.vert.glsl: instance and material.
+  if (method.entries_)
+    gl::attach_uints(method.array_, method.entries_, {.location = 4, .components = 2, .per_instance = true});
   method.bytes_ += sizeof(Triangle) * upload.faces.size();
   if (gl::take_out_of_memory()) return too_many(all_faces);
   return method;

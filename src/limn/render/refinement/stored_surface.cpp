@@ -88,14 +88,12 @@ struct StoredSurface::Impl {
   }
 
   Result<void> load_programs() {
-    gl::ProgramFiles files;
-    files.compute = "refine_store.comp.glsl";
-    files.defines = defines();
-    files.defines.push_back(nested_define(options.family));
-    const auto made = scene->context().program(files);
+    std::vector<std::string> defined = defines();
+    programs = SurfacePrograms({.vertex = "refine_stored.vert.glsl", .defines = {defined.front()}});
+    defined.push_back(nested_define(options.family));
+    const auto made = scene->context().compute_program("refine_store.comp.glsl", std::move(defined));
     if (!made) return tl::unexpected(made.error());
     store = *made;
-    programs = SurfacePrograms({.vertex = "refine_stored.vert.glsl", .defines = {files.defines.front()}});
     return {};
   }
 
@@ -105,11 +103,7 @@ struct StoredSurface::Impl {
     first_vertices = gl::make_storage(entry_capacity * kUint);
     pattern_vertices = gl::make_uint_texture(patterns->vertices(), 1);
     array = gl::make_vertex_array();
-    glVertexArrayVertexBuffer(array.id(), 0, first_vertices.id(), 0, kUint);
-    glVertexArrayAttribIFormat(array.id(), 0, 1, GL_UNSIGNED_INT, 0);
-    glVertexArrayAttribBinding(array.id(), 0, 0);
-    glVertexArrayBindingDivisor(array.id(), 0, 1);
-    glEnableVertexArrayAttrib(array.id(), 0);
+    gl::attach_uint_per_instance(array, first_vertices, 0);
     glVertexArrayElementBuffer(array.id(), patterns->batch_indices().id());
   }
 };

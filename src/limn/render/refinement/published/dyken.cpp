@@ -200,10 +200,7 @@ struct DykenMethod::Impl {
 
   Result<void> load_programs() {
     const auto load = [this](const gl::Program*& program, const char* name) -> Result<void> {
-      gl::ProgramFiles files;
-      files.compute = name;
-      files.defines = scene_defines(*scene);
-      const auto made = scene->context().program(files);
+      const auto made = scene->context().compute_program(name, scene_defines(*scene));
       if (!made) return tl::unexpected(made.error());
       program = *made;
       return {};
