@@ -1,62 +1,97 @@
-// scratch
+// What does clipping a coarse hull to the original's silhouette cost, and are its pixels the original's?
+//
+//   clip [--only NAME…] [--models DIR] [--size PX] [--views N] [--seed N] [--exact] [--json] [--svg FILE]
+//
+// Without more: the table of Sander et al. 2000 (Table 1), contestants alternating view by view, medians with quartiles.
+// --exact counts instead the pixels that differ from those the original covers. docs/clipping.md says what each means.
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
-#include <cstdlib>
-#include <chrono>
-#include "limn/base/random.h"
-#include "limn/mesh/import.h"
-#include "limn/mesh/shapes.h"
-#include "limn/render/clip/clip_picture.h"
-#include <glm/geometric.hpp>
-using namespace limn;
-int main(int argc, char** argv) {
-  auto context = gl::Context::create();
-  int views = argc > 2 ? atoi(argv[2]) : 50;
-  int size = argc > 3 ? atoi(argv[3]) : 512;
-  bool exact = argc > 4 ? atoi(argv[4]) : 1;
-  bool ortho = argc > 5 ? atoi(argv[5]) : 0;
-  Mesh mesh;
-  std::string name = argv[1];
-  if (name == "knot") mesh = *make_shape(Shape::kKnot, {.faces = 185856});
-  else if (name == "holes3") mesh = *make_shape(Shape::kHoles3, {.faces = 188416});
-  else if (name == "asteroid") mesh = *make_shape(Shape::kAsteroid, {.faces = 100000});
-  else { auto m = read_mesh(name); if (!m) { fmt::print("{}\n", format_error(m.error())); return 1; } mesh = std::move(m->mesh); }
-  mesh.normals = {}; mesh.uvs = {}; mesh.colors = {}; mesh.materials.clear(); mesh.face_materials.clear();
-  ClipAsset asset;
-  asset.levels.push_back({mesh, 0});
-  asset.bounds = face_bounds(mesh);
-  Mesh hull = *make_shape(Shape::kIcosphere, {.faces = 320});
-  hull.uvs = {};
-  float r = 0; Vec3 mid = asset.bounds.center();
-  for (auto& p : mesh.positions) r = std::max(r, glm::length(p - mid));
-  for (auto& p : hull.positions) p = mid + 1.06f * r * p;
-  asset.hull = hull;
-  auto t0 = std::chrono::steady_clock::now();
-  auto model = ClipModel::create(**context, asset);
-  if (!model) { fmt::print("{}\n", format_error(model.error())); return 1; }
-  fmt::print("{} faces, create {:.0f} ms\n", mesh.face_count(), std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - t0).count());
-  Random random(7);
-  ClipInstance inst{&*model};
-  std::size_t bad = 0, bad_views = 0; double tri = 0, eo = 0, lm = 0, em = 0, sm = 0, hm = 0, edges = 0;
-  for (int i = 0; i < views; ++i) {
-    CameraFit fit; fit.orthographic = ortho;
-    Camera camera = fit_camera(asset.bounds, random.direction(), fit);
-    camera.far_distance *= 2; camera.near_distance *= 0.5;
-    RenderOptions o; o.width = o.height = size; o.samples = 1; o.background = Vec4(0);
-    ClipOptions c; c.exact = exact; c.level_tolerance_px = 0; c.time_stages = true;
-    auto a = render(**context, mesh, camera, o);
-    auto b = render_clipped(**context, std::span(&inst, 1), camera, o, c);
-    if (!a || !b) { fmt::print("fail {}\n", format_error(!a ? a.error() : b.error())); return 1; }
-    std::size_t n = 0;
-    for (int y = 0; y < size; ++y) for (int x = 0; x < size; ++x) {
-      bool ca = a->pixel(x, y)[3] > 0, cb = b->image.pixel(x, y)[3] > 0;
-      if (ca != cb) { if (n < 3) fmt::print("view {} pixel {} {} original {} clipped {} place {}\n", i, x, y, ca, cb, (int)b->drawn[0].place); ++n; }
+#include <fstream>
+
+#include "limn/base/parallel.h"
+
+#include "clip_exact.h"
+#include "clip_frames.h"
+
+namespace limn::bench {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> only;
+  std::string models = "models";
+  FrameSettings frames;
+  bool exact = false, inexact = false;
+};
+
+void print_row(const ClipRow& row) {
+  fmt::print("{} ({} faces, hull {}): {:.0f} silhouette edges, {:.0f} stencil triangles, {:.0f} faces edge on\n", row.name,
+             row.faces, row.hull_faces, row.silhouette_edges, row.stencil_triangles, row.edge_on_faces);
+  const auto line = [](const char* name, const Spread& s) {
+    fmt::print("  {:24} {:8.3f} ms ({:.3f}-{:.3f})\n", name, s.median, s.low, s.high);
+  };
+  line("original", row.original);
+  line("simplified", row.simplified);
+  line("clipped", row.clipped);
+  line("clipped, lines", row.lines);
+  line("original, 4 samples", row.msaa_original);
+  line("clipped, 4 samples", row.msaa_clipped);
+  fmt::print("  stages: extraction {:.3f}, loops {:.3f}, stencil {:.3f}, hull {:.3f}\n", row.extraction, row.loops,
+             row.stencil, row.hull);
+  fmt::print("  speed-up {:.2f} (paper {:.1f}), with 4 samples {:.2f}; lines add {:+.3f} ms, samples {:+.3f} ms (paper {:+.1f} on {:.1f})\n",
+             row.original.median / row.clipped.median, row.paper.speed_up,
+             row.msaa_original.median / row.msaa_clipped.median, row.lines.median - row.clipped.median,
+             row.msaa_clipped.median - row.clipped.median, row.paper.antialiasing, row.paper.total);
+}
+
+int complain(const Error& error) {
+  fmt::print(stderr, "clip: {}\n", format_error(error));
+  return error.code == ErrorCode::kNoGraphics ? 6 : 1;
+}
+
+int run(const Arguments& arguments) {
+  const auto context = gl::Context::create();
+  if (!context) return complain(context.error());
+  fmt::print("{}, OpenGL {}, {} threads, {} px\n", (*context)->renderer(), (*context)->version(), thread_count(), arguments.frames.size_px);
+  for (const SubjectName& about : table_subjects()) {
+    if (!arguments.only.empty() &&
+        std::find(arguments.only.begin(), arguments.only.end(), about.name) == arguments.only.end())
+      continue;
+    if (arguments.exact || arguments.inexact) {
+      const auto counted = count_pixels(**context, about, arguments.models, arguments.frames, !arguments.inexact);
+      if (!counted) {
+        complain(counted.error());
+        continue;
+      }
+      fmt::print("{}: {} pixels differ in {} of {} pictures ({} pixels covered)\n", about.name, counted->differing, counted->pictures_differing, counted->pictures, counted->covered);
+      for (const std::string& line : counted->lines) fmt::print("  {}\n", line);
+      continue;
     }
-    bad += n; bad_views += n > 0;
-    auto& d = b->drawn[0];
-    if (i > 0) { tri += d.stencil_triangles; eo += d.edge_on_faces; lm += d.loops_ms; em += d.extraction_ms; sm += d.stencil_ms; hm += d.hull_ms; edges += d.silhouette_edges; }
-    if (i == 0) { write_png(*a, "/tmp/clip_a.png"); write_png(b->image, "/tmp/clip_b.png"); }
+    const auto subject = make_subject(about, arguments.models);
+    if (!subject) {
+      complain(subject.error());
+      continue;
+    }
+    const auto row = measure_row(**context, *subject, arguments.frames);
+    if (!row) return complain(row.error());
+    print_row(*row);
   }
-  double k = views - 1;
-  fmt::print("differing {} in {} views of {}; edges {:.0f} tri {:.0f} edge-on {:.0f} extract {:.3f} loops+edge-on {:.3f} stencil {:.3f} hull {:.3f} ms\n", bad, bad_views, views, edges/k, tri/k, eo/k, em/k, lm/k, sm/k, hm/k);
-  if ((*context)->severe_messages()) fmt::print("{}\n", (*context)->last_severe_message());
+  return 0;
+}
+
+}  // namespace
+}  // namespace limn::bench
+
+int main(int argc, char** argv) {
+  limn::bench::Arguments arguments;
+  CLI::App app("Measures silhouette clipping.");
+  app.add_option("--only", arguments.only, "Models, as the table names them");
+  app.add_option("--models", arguments.models, "Folder with the models (scripts/models)")->capture_default_str();
+  app.add_option("--size", arguments.frames.size_px, "Width and height in pixels")->capture_default_str();
+  app.add_option("--views", arguments.frames.views, "Random views")->capture_default_str();
+  app.add_option("--seed", arguments.frames.seed, "Of the views")->capture_default_str();
+  app.add_flag("--exact", arguments.exact, "Count pixels that differ from the original's");
+  app.add_flag("--inexact", arguments.inexact, "The same without the faces seen edge on");
+  CLI11_PARSE(app, argc, argv);
+  return limn::bench::run(arguments);
 }

@@ -92,17 +92,18 @@ void EdgeOnFaces::find(const PictureScale& scale, LineVector<Vec3>& points) cons
   // What rounding may add to a face's distance: of the sum's own terms, and of the plane.
   const float slack = 1e-6f * (std::abs(eye.x) + std::abs(eye.y) + std::abs(eye.z) + offset * (farthest_ + radius_));
   for (std::size_t first = 0; first < nx_.size(); first += kStride) {
-    std::array<std::uint8_t, kStride> hit;
-    unsigned any = 0;
+    std::array<float, kStride> near;
     for (std::size_t i = 0; i < kStride; ++i) {
       const std::size_t f = first + i;
       const float side = nx_[f] * eye.x + ny_[f] * eye.y + nz_[f] * eye.z + offset * d_[f];
-      hit[i] = (std::abs(side) - slack) * thickness_[f] <= bound ? 1 : 0;
-      any |= hit[i];
+      near[i] = (std::abs(side) - slack) * thickness_[f];
     }
+    int any = 0;
+    for (const float value : near)
+      any |= value <= bound ? 1 : 0;
     if (any == 0) continue;
     for (std::size_t i = 0; i < kStride && first + i < faces_.size(); ++i) {
-      if (hit[i] == 0 || !may_turn(first + i, scale)) continue;
+      if (!(near[i] <= bound) || !may_turn(first + i, scale)) continue;
       for (const VertexId v : faces_[first + i])
         points.push_back(positions_[v]);
     }
