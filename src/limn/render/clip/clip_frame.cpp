@@ -136,6 +136,8 @@ void ClipFrame::find_silhouette(ClipLevel& level, const Placed& placed, ClipDraw
     PictureScale scale;
     scale.eye = placed.eye;
     scale.forward = placed.forward;
+    scale.right = placed.right;
+    scale.up = placed.up;
     scale.pixels_per_unit = placed.eye.orthographic ? placed.scale / camera_.pixel_size : 1.0f / camera_.pixel_size;
     scale.widest_cosine = placed.eye.orthographic ? 1.0f : 1.0f / std::sqrt(1.0f + diagonal * diagonal);
     scale.vertex_error_px = vertex_error_px();

@@ -120,7 +120,7 @@ Result<void> ClipModel::add_level(const SilhouetteLevel& level) {
   std::vector<Plane> planes = face_planes(mesh);
   SilhouetteExtractor extractor(mesh, topology, planes);
   StencilLoopBuilder loops(mesh, topology, planes);
-  EdgeOnFaces edge_on(mesh, planes);
+  EdgeOnFaces edge_on(mesh, topology, planes);
   // Moving a vector keeps its memory, which the extractor refers to.
   auto made = std::make_unique<ClipLevel>(
       ClipLevel{std::move(planes), std::move(extractor), std::move(loops), std::move(edge_on), 0, {}, {}, {}, 0});

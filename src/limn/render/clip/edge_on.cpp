@@ -7,29 +7,53 @@
 #include <limits>
 
 #include "limn/base/bounds.h"
+#include "limn/silhouette/search/edge_clusters.h"
 
 namespace limn {
 namespace {
 
-constexpr std::size_t kStride = 64;  // faces tested at a time, a bit each
+constexpr std::size_t kBatch = 16;  // groups tested at a time
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 double perimeter_of(const std::array<DVec3, 3>& p) {
   return glm::length(p[1] - p[0]) + glm::length(p[2] - p[1]) + glm::length(p[0] - p[2]);
 }
 
+/// Every face once, those together that lie together and look the same way.
+std::vector<FaceId> coherent_order(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes) {
+  std::vector<FaceId> order;
+  std::vector<bool> taken(mesh.face_count(), false);
+  const auto take = [&](FaceId face) {
+    if (!taken[face]) order.push_back(face);
+    taken[face] = true;
+  };
+  for (const LeafCluster& cluster : leaf_clusters(mesh, topology, planes)) {
+    for (std::size_t i = 0; i < cluster.face_count; ++i)
+      take(cluster.faces[i]);
+  }
+  for (std::size_t f = 0; f < mesh.face_count(); ++f)
+    take(static_cast<FaceId>(f));
+  return order;
+}
+
 }  // namespace
 
-EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, std::span<const Plane> planes)
+struct EdgeOnFaces::Query {
+  const PictureScale* scale;
+  Vec3 eye;
+  float offset;  ///< 1, or 0 for a direction
+  float slack;   ///< what rounding may add to a distance
+  float bound;   ///< of (|distance| - slack) times thickness, above which a face keeps its side
+};
+
+EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes)
     : positions_(mesh.positions), faces_(mesh.faces) {
   const std::size_t count = faces_.size();
-  const std::size_t padded = (count + kStride - 1) / kStride * kStride;
-  for (LineVector<float>* values : {&nx_, &ny_, &nz_, &d_, &thickness_})
-    values->resize(padded);
   const Bounds bounds = face_bounds(mesh);
   center_ = bounds.empty() ? Vec3(0) : bounds.center();
   farthest_ = glm::length(center_);
   std::vector<double> perimeters(count);
+  std::vector<float> thickness(count);
   double sum = 0;
   for (std::size_t f = 0; f < count; ++f) {
     const std::array<DVec3, 3> p = {positions_[faces_[f][0]], positions_[faces_[f][1]], positions_[faces_[f][2]]};
@@ -38,41 +62,84 @@ EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, std::span<const Plane> planes)
     for (const DVec3& corner : p)
       radius_ = std::max(radius_, static_cast<float>(glm::length(corner - DVec3(center_)) * 1.000001));
     const double area = glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
-    nx_[f] = planes[f].nx, ny_[f] = planes[f].ny, nz_[f] = planes[f].nz, d_[f] = planes[f].d;
-    thickness_[f] = perimeters[f] > 0 ? static_cast<float>(0.999999 * area / perimeters[f]) : 0.0f;
+    thickness[f] = perimeters[f] > 0 ? static_cast<float>(0.999999 * area / perimeters[f]) : 0.0f;
   }
-  // One bound holds for all faces but the smallest, which are looked at one by one.
+  // One bound holds for all faces but the smallest, which are looked at one by one, in groups of their own.
   least_perimeter_ = static_cast<float>(count > 0 ? 0.1 * sum / static_cast<double>(count) : 0.0);
-  for (std::size_t f = 0; f < count; ++f) {
-    if (perimeters[f] < double{least_perimeter_}) thickness_[f] = 0.0f;
+  std::vector<FaceId> regular, small;
+  for (const FaceId face : coherent_order(mesh, topology, planes)) {
+    const bool is_small = perimeters[face] < double{least_perimeter_};
+    if (is_small) thickness[face] = 0.0f;
+    (is_small ? small : regular).push_back(face);
   }
-  for (std::size_t f = count; f < padded; ++f) {
-    nx_[f] = ny_[f] = nz_[f] = 0.0f;
-    d_[f] = thickness_[f] = 1e30f;  // far from any eye
+  for (const std::vector<FaceId>* faces : {&regular, &small}) {
+    for (std::size_t first = 0; first < faces->size(); first += kGroup)
+      add_group(std::span(*faces).subspan(first, std::min(kGroup, faces->size() - first)), planes, thickness);
   }
+  for (LineVector<float>* values : {&bounds_.cx, &bounds_.cy, &bounds_.cz, &bounds_.ax, &bounds_.ay, &bounds_.az,
+                                    &bounds_.spread, &bounds_.offset, &bounds_.thickness})
+    values->resize((groups_.size() + kBatch - 1) / kBatch * kBatch, 0.0f);
 }
 
-/// Faces with |n·x + d| · thickness above it keep their side. Twice a face's area in the picture is
-/// s² · 2A · |n·x + d| / (z0 z1 z2) with s the pixels a unit covers at distance 1; vertices that move by e change it by
-/// at most e · perimeter + 3 e².
-float EdgeOnFaces::bound_of(const PictureScale& scale) const {
-  const double e = double{scale.vertex_error_px}, s = double{scale.pixels_per_unit};
-  if (scale.eye.orthographic) return static_cast<float>(1.0001 * (e / s) * (1 + 3 * e / (s * double{least_perimeter_})));
-  const double middle = glm::dot(DVec3(center_) - DVec3(scale.eye.at), DVec3(scale.forward));
-  const double nearest = middle - double{radius_}, farthest = middle + double{radius_};
-  if (nearest <= 1e-3 * double{radius_}) return kInfinite;
-  const double lengthening = 1.0 / double{scale.widest_cosine};  // of what is seen off the axis
-  const double edges = e * lengthening * farthest * farthest * farthest / (nearest * s);
-  const double corners = 3 * e * e * farthest * farthest * farthest / (s * s * double{least_perimeter_});
-  return static_cast<float>(1.0001 * (edges + corners));
+void EdgeOnFaces::add_group(std::span<const FaceId> faces, std::span<const Plane> planes,
+                            std::span<const float> thickness) {
+  Group group{};
+  group.face.fill(kInvalidId);
+  group.thickness.fill(kInfinite);
+  group.d.fill(1.0f);  // beside any eye, where there is no face
+  DVec3 center(0), axis(0);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const FaceId face = faces[i];
+    const Plane& plane = planes[face];
+    group.nx[i] = plane.nx, group.ny[i] = plane.ny, group.nz[i] = plane.nz, group.d[i] = plane.d;
+    group.thickness[i] = thickness[face];
+    group.face[i] = face;
+    axis += DVec3(plane.nx, plane.ny, plane.nz);
+    center += DVec3(positions_[faces_[face][0]]);
+  }
+  center /= static_cast<double>(faces.size());
+  axis = glm::length(axis) > 0 ? glm::normalize(axis) : DVec3(0);
+  double spread = 0, offset = 0, thinnest = HUGE_VAL;
+  for (const FaceId face : faces) {
+    const DVec3 n(planes[face].nx, planes[face].ny, planes[face].nz);
+    spread = std::max(spread, glm::length(n - axis));
+    offset = std::max(offset, std::abs(glm::dot(n, center) + double{planes[face].d}));
+    thinnest = std::min(thinnest, double{thickness[face]});
+  }
+  group.center = Vec3(center);
+  for (const FaceId face : faces) {
+    for (const VertexId v : faces_[face])
+      group.radius = std::max(group.radius, 1.00001f * glm::length(positions_[v] - group.center));
+  }
+  groups_.push_back(group);
+  const auto add = [](LineVector<float>& values, double value) { values.push_back(static_cast<float>(value)); };
+  add(bounds_.cx, center.x), add(bounds_.cy, center.y), add(bounds_.cz, center.z);
+  add(bounds_.ax, axis.x), add(bounds_.ay, axis.y), add(bounds_.az, axis.z);
+  add(bounds_.spread, spread * 1.00001 + 1e-6);
+  add(bounds_.offset, offset);
+  add(bounds_.thickness, thinnest);
 }
 
-bool EdgeOnFaces::may_turn(std::size_t face, const PictureScale& scale) const {
+/// Faces within a ball keep their side where |n·x + d| times thickness is above it. Twice a face's area in the picture
+/// is s² · 2A · |n·x + d| / (z0 z1 z2) with s the pixels that a unit covers at distance 1; vertices that move by e
+/// change it by at most e · perimeter + 3 e².
+float EdgeOnFaces::bound_of(const PictureScale& scale, const Vec3& center, float radius) const {
+  const float e = scale.vertex_error_px, s = scale.pixels_per_unit;
+  if (scale.eye.orthographic) return 1.0001f * (e / s) * (1.0f + 3.0f * e / (s * least_perimeter_));
+  const Vec3 away = center - scale.eye.at;
+  const float middle = glm::dot(away, scale.forward);
+  const float nearest = middle - radius, farthest = middle + radius;
+  if (nearest <= 1e-3f * radius_) return kInfinite;
+  // A length in the picture, over what it would be on the axis, is at most the secant of the angle from it.
+  const float secant = std::min(1.0f / scale.widest_cosine, (glm::length(away) + radius) / nearest);
+  const float edges = e * secant * farthest * farthest * farthest / (nearest * s);
+  const float corners = 3.0f * e * e * farthest * farthest * farthest / (s * s * least_perimeter_);
+  return 1.0001f * (edges + corners);
+}
+
+bool EdgeOnFaces::may_turn(FaceId face, const PictureScale& scale) const {
   std::array<glm::dvec2, 3> p;
-  const DVec3 forward = scale.forward;
-  // Any two axes across the line of sight: areas and lengths are the same about it.
-  const DVec3 helper = std::abs(forward.x) < 0.7 ? DVec3(1, 0, 0) : DVec3(0, 1, 0);
-  const DVec3 right = glm::normalize(glm::cross(forward, helper)), up = glm::cross(right, forward);
+  const DVec3 forward = scale.forward, right = scale.right, up = scale.up;
   for (std::size_t c = 0; c < 3; ++c) {
     const DVec3 at = DVec3(positions_[faces_[face][c]]) - (scale.eye.orthographic ? DVec3(center_) : DVec3(scale.eye.at));
     const double depth = scale.eye.orthographic ? 1.0 : glm::dot(at, forward);
@@ -84,34 +151,59 @@ bool EdgeOnFaces::may_turn(std::size_t face, const PictureScale& scale) const {
   return area <= 1.001 * e * (glm::length(a) + glm::length(b) + glm::length(c) + 3 * e);
 }
 
+void EdgeOnFaces::test_group(const Group& group, const Query& query, LineVector<Vec3>& points) const {
+  std::array<float, kGroup> near;
+  for (std::size_t i = 0; i < kGroup; ++i) {
+    const float side =
+        group.nx[i] * query.eye.x + group.ny[i] * query.eye.y + group.nz[i] * query.eye.z + query.offset * group.d[i];
+    near[i] = (std::abs(side) - query.slack) * group.thickness[i];
+  }
+  const float bound = bound_of(*query.scale, group.center, group.radius);
+  int any = 0;
+  for (const float value : near)
+    any |= value <= bound ? 1 : 0;
+  if (any == 0) return;
+  for (std::size_t i = 0; i < kGroup; ++i) {
+    if (!(near[i] <= bound) || group.face[i] == kInvalidId || !may_turn(group.face[i], *query.scale)) continue;
+    for (const VertexId v : faces_[group.face[i]])
+      points.push_back(positions_[v]);
+  }
+}
+
 void EdgeOnFaces::find(const PictureScale& scale, LineVector<Vec3>& points) const {
-  const float bound = bound_of(scale);
   const bool parallel = scale.eye.orthographic;
-  const Vec3 eye = parallel ? Vec3(glm::normalize(DVec3(scale.eye.at))) : scale.eye.at;
-  const float offset = parallel ? 0.0f : 1.0f;
-  // What rounding may add to a face's distance: of the sum's own terms, and of the plane.
-  const float slack = 1e-6f * (std::abs(eye.x) + std::abs(eye.y) + std::abs(eye.z) + offset * (farthest_ + radius_));
-  for (std::size_t first = 0; first < nx_.size(); first += kStride) {
-    std::array<float, kStride> near;
-    for (std::size_t i = 0; i < kStride; ++i) {
-      const std::size_t f = first + i;
-      const float side = nx_[f] * eye.x + ny_[f] * eye.y + nz_[f] * eye.z + offset * d_[f];
-      near[i] = (std::abs(side) - slack) * thickness_[f];
+  Query query{};
+  query.scale = &scale;
+  query.bound = bound_of(scale, center_, radius_);
+  query.eye = parallel ? Vec3(glm::normalize(DVec3(scale.eye.at))) : scale.eye.at;
+  query.offset = parallel ? 0.0f : 1.0f;
+  const Vec3 size = glm::abs(query.eye);
+  query.slack = 2e-6f * (size.x + size.y + size.z + query.offset * (farthest_ + radius_));
+  // A direction's distance from a plane has nothing of the place: the same sum without centre and offset.
+  const float placed = query.offset;
+  const float farthest = parallel ? 1.00001f : 1.00001f * (glm::length(query.eye - center_) + radius_);
+  for (std::size_t first = 0; first < groups_.size(); first += kBatch) {
+    std::array<float, kBatch> least;
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      const std::size_t g = first + i;
+      const float x = query.eye.x - placed * bounds_.cx[g], y = query.eye.y - placed * bounds_.cy[g],
+                  z = query.eye.z - placed * bounds_.cz[g];
+      const float along = std::abs(bounds_.ax[g] * x + bounds_.ay[g] * y + bounds_.az[g] * z);
+      least[i] = (along - bounds_.spread[g] * farthest - placed * bounds_.offset[g] - query.slack) * bounds_.thickness[g];
     }
     int any = 0;
-    for (const float value : near)
-      any |= value <= bound ? 1 : 0;
+    for (const float value : least)
+      any |= value <= query.bound ? 1 : 0;
     if (any == 0) continue;
-    for (std::size_t i = 0; i < kStride && first + i < faces_.size(); ++i) {
-      if (!(near[i] <= bound) || !may_turn(first + i, scale)) continue;
-      for (const VertexId v : faces_[first + i])
-        points.push_back(positions_[v]);
+    for (std::size_t i = 0; i < kBatch && first + i < groups_.size(); ++i) {
+      if (least[i] <= query.bound) test_group(groups_[first + i], query, points);
     }
   }
 }
 
 std::size_t EdgeOnFaces::memory_bytes() const {
-  return positions_.size() * sizeof(Vec3) + faces_.size() * sizeof(Triangle) + 5 * nx_.size() * sizeof(float);
+  return positions_.size() * sizeof(Vec3) + faces_.size() * sizeof(Triangle) +
+         groups_.size() * (sizeof(Group) + 9 * sizeof(float));
 }
 
 }  // namespace limn
