@@ -78,8 +78,9 @@ ClipFrame::Placed ClipFrame::place(const Mat4& to_world) const {
   placed.right = Vec3(glm::normalize(turn_back * axes[0]));
   placed.up = Vec3(glm::normalize(turn_back * axes[1]));
   placed.forward = Vec3(glm::normalize(turn_back * -axes[2]));
+  placed.origin = Vec3(inverse * glm::dvec4(DVec3(camera_.eye), 1.0));
   placed.eye.orthographic = camera_.orthographic != 0;
-  placed.eye.at = placed.eye.orthographic ? -placed.forward : Vec3(inverse * glm::dvec4(DVec3(camera_.eye), 1.0));
+  placed.eye.at = placed.eye.orthographic ? -placed.forward : placed.origin;
   return placed;
 }
 
@@ -141,6 +142,8 @@ void ClipFrame::find_silhouette(ClipLevel& level, const Placed& placed, ClipDraw
     scale.pixels_per_unit = placed.eye.orthographic ? placed.scale / camera_.pixel_size : 1.0f / camera_.pixel_size;
     scale.widest_cosine = placed.eye.orthographic ? 1.0f : 1.0f / std::sqrt(1.0f + diagonal * diagonal);
     scale.vertex_error_px = vertex_error_px();
+    if (targets_->samples() == 1) scale.axis_px = 0.5f * camera_.size_px;
+    scale.origin = placed.origin;
     level.edge_on.find(scale, edge_on_);
   }
   drawn.loops_ms = ms_since(found);

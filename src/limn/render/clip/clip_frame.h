@@ -75,7 +75,8 @@ class ClipFrame {
     Mat4 to_world{1.0f};
     Mat4 to_eye{1.0f};
     float scale = 1.0f;  ///< world units a unit of the model's
-    Eye eye{};           ///< in the model's space, as are the three axes of unit length
+    Eye eye{};           ///< in the model's space, as are the viewer's place and the three axes of unit length
+    Vec3 origin{0};
     Vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
   };
   /// A rectangle of the picture.

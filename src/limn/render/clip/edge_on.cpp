@@ -36,6 +36,36 @@ std::vector<FaceId> coherent_order(const Mesh& mesh, const Topology& topology, s
   return order;
 }
 
+/// Whether no pixel's centre lies within the triangle or nearer to it than twice the error. Only for triangles so thin
+/// that their widening matters little: it is a box about each row of pixels that is looked at.
+bool between_samples(const std::array<glm::dvec2, 3>& p, const PictureScale& scale) {
+  if (scale.axis_px.x < 0.0f) return false;
+  const double e = 2.0 * double{scale.vertex_error_px};
+  const glm::dvec2 shift = glm::dvec2(scale.axis_px) - 0.5;  // then centres have whole coordinates
+  const glm::dvec2 a = p[0] + shift, b = p[1] + shift, c = p[2] + shift;
+  const glm::dvec2 low = glm::min(glm::min(a, b), c) - e, high = glm::max(glm::max(a, b), c) + e;
+  const double rows = std::floor(high.y) - std::ceil(low.y);
+  if (rows < 0 || std::floor(high.x) < std::ceil(low.x)) return true;
+  constexpr double kMostRows = 8;
+  if (rows > kMostRows) return false;
+  for (double y = std::ceil(low.y); y <= high.y; y += 1.0) {
+    double left = HUGE_VAL, right = -HUGE_VAL;  // where the triangle meets the strip of height 2 e about the row
+    const std::array<std::array<glm::dvec2, 2>, 3> sides = {{{a, b}, {b, c}, {c, a}}};
+    for (const auto& [from, to] : sides) {
+      const double top = std::max(from.y, to.y), bottom = std::min(from.y, to.y);
+      if (bottom > y + e || top < y - e) continue;
+      for (const double height : {std::clamp(y - e, bottom, top), std::clamp(y + e, bottom, top)}) {
+        const double t = top > bottom ? (height - from.y) / (to.y - from.y) : 0.0;
+        const double x = from.x + t * (to.x - from.x);
+        left = std::min(left, top > bottom ? x : std::min(from.x, to.x));
+        right = std::max(right, top > bottom ? x : std::max(from.x, to.x));
+      }
+    }
+    if (std::floor(right + e) >= std::ceil(left - e)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 struct EdgeOnFaces::Query {
@@ -46,9 +76,8 @@ struct EdgeOnFaces::Query {
   float bound;   ///< of (|distance| - slack) times thickness, above which a face keeps its side
 };
 
-EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes)
-    : positions_(mesh.positions), faces_(mesh.faces) {
-  const std::size_t count = faces_.size();
+EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes) {
+  const std::size_t count = mesh.face_count();
   const Bounds bounds = face_bounds(mesh);
   center_ = bounds.empty() ? Vec3(0) : bounds.center();
   farthest_ = glm::length(center_);
@@ -56,7 +85,8 @@ EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, const Topology& topology, std::span<c
   std::vector<float> thickness(count);
   double sum = 0;
   for (std::size_t f = 0; f < count; ++f) {
-    const std::array<DVec3, 3> p = {positions_[faces_[f][0]], positions_[faces_[f][1]], positions_[faces_[f][2]]};
+    const Triangle& face = mesh.faces[f];
+    const std::array<DVec3, 3> p = {mesh.positions[face[0]], mesh.positions[face[1]], mesh.positions[face[2]]};
     perimeters[f] = perimeter_of(p);
     sum += perimeters[f];
     for (const DVec3& corner : p)
@@ -74,17 +104,18 @@ EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, const Topology& topology, std::span<c
   }
   for (const std::vector<FaceId>* faces : {&regular, &small}) {
     for (std::size_t first = 0; first < faces->size(); first += kGroup)
-      add_group(std::span(*faces).subspan(first, std::min(kGroup, faces->size() - first)), planes, thickness);
+      add_group(mesh, std::span(*faces).subspan(first, std::min(kGroup, faces->size() - first)), planes, thickness);
   }
   for (LineVector<float>* values : {&bounds_.cx, &bounds_.cy, &bounds_.cz, &bounds_.ax, &bounds_.ay, &bounds_.az,
                                     &bounds_.spread, &bounds_.offset, &bounds_.thickness})
     values->resize((groups_.size() + kBatch - 1) / kBatch * kBatch, 0.0f);
 }
 
-void EdgeOnFaces::add_group(std::span<const FaceId> faces, std::span<const Plane> planes,
+void EdgeOnFaces::add_group(const Mesh& mesh, std::span<const FaceId> faces, std::span<const Plane> planes,
                             std::span<const float> thickness) {
   Group group{};
-  group.face.fill(kInvalidId);
+  Corners corners{};
+  group.count = static_cast<std::uint32_t>(faces.size());
   group.thickness.fill(kInfinite);
   group.d.fill(1.0f);  // beside any eye, where there is no face
   DVec3 center(0), axis(0);
@@ -93,9 +124,10 @@ void EdgeOnFaces::add_group(std::span<const FaceId> faces, std::span<const Plane
     const Plane& plane = planes[face];
     group.nx[i] = plane.nx, group.ny[i] = plane.ny, group.nz[i] = plane.nz, group.d[i] = plane.d;
     group.thickness[i] = thickness[face];
-    group.face[i] = face;
+    for (std::size_t c = 0; c < 3; ++c)
+      corners[i][c] = mesh.positions[mesh.faces[face][c]];
     axis += DVec3(plane.nx, plane.ny, plane.nz);
-    center += DVec3(positions_[faces_[face][0]]);
+    center += DVec3(corners[i][0]);
   }
   center /= static_cast<double>(faces.size());
   axis = glm::length(axis) > 0 ? glm::normalize(axis) : DVec3(0);
@@ -107,11 +139,12 @@ void EdgeOnFaces::add_group(std::span<const FaceId> faces, std::span<const Plane
     thinnest = std::min(thinnest, double{thickness[face]});
   }
   group.center = Vec3(center);
-  for (const FaceId face : faces) {
-    for (const VertexId v : faces_[face])
-      group.radius = std::max(group.radius, 1.00001f * glm::length(positions_[v] - group.center));
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (const Vec3& corner : corners[i])
+      group.radius = std::max(group.radius, 1.00001f * glm::length(corner - group.center));
   }
   groups_.push_back(group);
+  corners_.push_back(corners);
   const auto add = [](LineVector<float>& values, double value) { values.push_back(static_cast<float>(value)); };
   add(bounds_.cx, center.x), add(bounds_.cy, center.y), add(bounds_.cz, center.z);
   add(bounds_.ax, axis.x), add(bounds_.ay, axis.y), add(bounds_.az, axis.z);
@@ -137,21 +170,26 @@ float EdgeOnFaces::bound_of(const PictureScale& scale, const Vec3& center, float
   return 1.0001f * (edges + corners);
 }
 
-bool EdgeOnFaces::may_turn(FaceId face, const PictureScale& scale) const {
+bool EdgeOnFaces::may_turn(const std::array<Vec3, 3>& corners, const PictureScale& scale) const {
   std::array<glm::dvec2, 3> p;
+  const bool parallel = scale.eye.orthographic;
   const DVec3 forward = scale.forward, right = scale.right, up = scale.up;
+  const DVec3 from = parallel ? DVec3(scale.origin) : DVec3(scale.eye.at);
   for (std::size_t c = 0; c < 3; ++c) {
-    const DVec3 at = DVec3(positions_[faces_[face][c]]) - (scale.eye.orthographic ? DVec3(center_) : DVec3(scale.eye.at));
-    const double depth = scale.eye.orthographic ? 1.0 : glm::dot(at, forward);
+    const DVec3 at = DVec3(corners[c]) - from;
+    const double depth = parallel ? 1.0 : glm::dot(at, forward);
     if (depth <= 1e-6 * double{radius_}) return true;  // beside or behind the eye: clipped, or not to be told from here
     p[c] = double{scale.pixels_per_unit} / depth * glm::dvec2(glm::dot(at, right), glm::dot(at, up));
   }
+  const double e = double{scale.vertex_error_px};
+  if (between_samples(p, scale)) return false;
   const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0], c = p[2] - p[1];
-  const double area = std::abs(a.x * b.y - a.y * b.x), e = double{scale.vertex_error_px};
+  const double area = std::abs(a.x * b.y - a.y * b.x);
   return area <= 1.001 * e * (glm::length(a) + glm::length(b) + glm::length(c) + 3 * e);
 }
 
-void EdgeOnFaces::test_group(const Group& group, const Query& query, LineVector<Vec3>& points) const {
+void EdgeOnFaces::test_group(std::size_t g, const Query& query, LineVector<Vec3>& points) const {
+  const Group& group = groups_[g];
   std::array<float, kGroup> near;
   for (std::size_t i = 0; i < kGroup; ++i) {
     const float side =
@@ -163,10 +201,9 @@ void EdgeOnFaces::test_group(const Group& group, const Query& query, LineVector<
   for (const float value : near)
     any |= value <= bound ? 1 : 0;
   if (any == 0) return;
-  for (std::size_t i = 0; i < kGroup; ++i) {
-    if (!(near[i] <= bound) || group.face[i] == kInvalidId || !may_turn(group.face[i], *query.scale)) continue;
-    for (const VertexId v : faces_[group.face[i]])
-      points.push_back(positions_[v]);
+  for (std::size_t i = 0; i < group.count; ++i) {
+    if (!(near[i] <= bound) || !may_turn(corners_[g][i], *query.scale)) continue;
+    points.insert(points.end(), corners_[g][i].begin(), corners_[g][i].end());
   }
 }
 
@@ -196,14 +233,13 @@ void EdgeOnFaces::find(const PictureScale& scale, LineVector<Vec3>& points) cons
       any |= value <= query.bound ? 1 : 0;
     if (any == 0) continue;
     for (std::size_t i = 0; i < kBatch && first + i < groups_.size(); ++i) {
-      if (least[i] <= query.bound) test_group(groups_[first + i], query, points);
+      if (least[i] <= query.bound) test_group(first + i, query, points);
     }
   }
 }
 
 std::size_t EdgeOnFaces::memory_bytes() const {
-  return positions_.size() * sizeof(Vec3) + faces_.size() * sizeof(Triangle) +
-         groups_.size() * (sizeof(Group) + 9 * sizeof(float));
+  return groups_.size() * (sizeof(Group) + sizeof(Corners) + 9 * sizeof(float));
 }
 
 }  // namespace limn

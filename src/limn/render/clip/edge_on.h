@@ -20,9 +20,14 @@ struct PictureScale {
   float pixels_per_unit = 1.0f;   ///< at distance 1 (perspective) or anywhere (orthographic)
   float widest_cosine = 1.0f;     ///< of the angle between `forward` and the picture's corner
   float vertex_error_px = 0.004f;  ///< how far a vertex may lie from its exact place once rasterized
+  /// Where the axis of view meets the picture, from a pixel's corner: with one sample a pixel, faces between the samples
+  /// are left out. Negative: there are several samples, no face is left out.
+  Vec2 axis_px{-1.0f};
+  Vec3 origin{0};  ///< orthographic: a point of the mesh's space on that axis
 };
 
-/// Finds the faces that may be seen from the other side once their vertices have been moved to the rasterizer's grid.
+/// Finds the faces that may be seen from the other side once their vertices have been moved to the rasterizer's grid,
+/// and then cover a sample.
 ///
 /// Rasterizers place vertices on a grid of, say, 1/256 pixel. A face seen so nearly edge on that this turns it over
 /// covers, if anything at all, pixels that the silhouette does not count; drawing these few faces as well makes the
@@ -46,7 +51,7 @@ class EdgeOnFaces {
   struct alignas(64) Group {
     std::array<float, kGroup> nx, ny, nz, d;
     std::array<float, kGroup> thickness;  ///< twice the area over the perimeter, of a face; 0: look at it in any case
-    std::array<FaceId, kGroup> face;      ///< kInvalidId: none
+    std::uint32_t count;
     Vec3 center;
     float radius;  ///< of a ball about the centre that holds the faces
   };
@@ -56,14 +61,15 @@ class EdgeOnFaces {
   };
   struct Query;
 
-  void add_group(std::span<const FaceId> faces, std::span<const Plane> planes, std::span<const float> thickness);
-  void test_group(const Group& group, const Query& query, LineVector<Vec3>& points) const;
-  bool may_turn(FaceId face, const PictureScale& scale) const;
+  void add_group(const Mesh& mesh, std::span<const FaceId> faces, std::span<const Plane> planes,
+                 std::span<const float> thickness);
+  void test_group(std::size_t group, const Query& query, LineVector<Vec3>& points) const;
+  bool may_turn(const std::array<Vec3, 3>& corners, const PictureScale& scale) const;
   float bound_of(const PictureScale& scale, const Vec3& center, float radius) const;
 
-  std::vector<Vec3> positions_;
-  std::vector<Triangle> faces_;
+  using Corners = std::array<std::array<Vec3, 3>, kGroup>;
   LineVector<Group> groups_;
+  LineVector<Corners> corners_;  ///< of each group
   GroupBounds bounds_;
   Vec3 center_{0};
   float radius_ = 0;

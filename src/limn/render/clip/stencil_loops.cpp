@@ -99,8 +99,17 @@ void StencilLoopBuilder::build(std::span<const EdgeId> edges, const Eye& eye, St
   loops.corners.clear();
   step_count_ = 0;
   if (steps_.size() < edges.size() + crowded_.size()) steps_.resize(2 * edges.size() + crowded_.size());
-  for (const EdgeId e : edges) {
-    const DirectedEdge& edge = edges_[e];
+  // Edges lie all over memory, which takes longer to answer than they take to be looked at: ask ahead.
+  constexpr std::size_t kEdgesAhead = 32, kVerticesAhead = 16;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i + kEdgesAhead < edges.size()) __builtin_prefetch(&edges_[edges[i + kEdgesAhead]]);
+    if (i + kVerticesAhead < edges.size()) {
+      for (const VertexId v : {edges_[edges[i + kVerticesAhead]].from, edges_[edges[i + kVerticesAhead]].to}) {
+        __builtin_prefetch(&leaving_[v], 1);
+        __builtin_prefetch(&positions_[v]);
+      }
+    }
+    const DirectedEdge& edge = edges_[edges[i]];
     if (faces_eye(edge.left, eye)) {
       add_step(edge.from, edge.to);
     } else {
