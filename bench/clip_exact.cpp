@@ -122,7 +122,7 @@ Result<PixelCount> count_pixels(gl::Context& context, const SubjectName& about, 
     (*program)->set("draw_faces", 1);
     oracle.draw();
     const std::vector<std::uint8_t> wanted = read_alpha(kSizes[size]);
-    ClipOptions options;
+    ClipDrawOptions options;
     options.level_tolerance_px = 0;
     options.exact = exact;
     frame->begin(targets[size], camera, options);

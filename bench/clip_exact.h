@@ -16,7 +16,7 @@ struct PixelCount {
 };
 
 /// Compares coverage over views of every kind in turn: perspective and parallel, from near and far, in pictures of
-/// several sizes, with a sphere for a hull and with a tight one. \param exact  ClipOptions::exact
+/// several sizes, with a sphere for a hull and with a tight one. \param exact  ClipDrawOptions::exact
 Result<PixelCount> count_pixels(gl::Context& context, const SubjectName& about, const std::filesystem::path& models,
                                 const FrameSettings& settings, bool exact);
 

@@ -98,14 +98,14 @@ Result<ClipRow> measure_row(gl::Context& context, const Subject& subject, const 
     stage->camera.update(make_camera_block(camera, settings.size_px, settings.size_px));
     mesh.draw(targets, stage->camera);
   };
-  const auto clipped = [&](const RenderTargets& targets, const Camera& camera, const ClipOptions& options) {
+  const auto clipped = [&](const RenderTargets& targets, const Camera& camera, const ClipDrawOptions& options) {
     frame->begin(targets, camera, options);
     auto done = frame->draw(*model);
     if (!done) state = tl::unexpected(done.error());
     if (done) drawn = *done;
     frame->end();
   };
-  ClipOptions options, lines, timed;
+  ClipDrawOptions options, lines, timed;
   options.level_tolerance_px = lines.level_tolerance_px = timed.level_tolerance_px = 0;
   lines.antialias = ClipAntialias::kLines;
   timed.time_stages = true;

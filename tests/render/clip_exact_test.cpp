@@ -15,7 +15,7 @@ using test::picture_options;
 
 class ClipExact : public test::DrawingTest {
  protected:
-  ClipPicture clip(ClipModel& model, const Camera& camera, const RenderOptions& options, ClipOptions clip = {}) {
+  ClipPicture clip(ClipModel& model, const Camera& camera, const RenderOptions& options, ClipDrawOptions clip = {}) {
     clip.level_tolerance_px = 0;
     const ClipInstance instance{&model, Mat4(1.0f)};
     auto picture = render_clipped(*context_, std::span(&instance, 1), camera, options, clip);

@@ -48,7 +48,7 @@ Result<ClipFrame> ClipFrame::create(gl::Context& context, const HullStage& stage
   return frame;
 }
 
-void ClipFrame::begin(const RenderTargets& targets, const Camera& camera, const ClipOptions& options) {
+void ClipFrame::begin(const RenderTargets& targets, const Camera& camera, const ClipDrawOptions& options) {
   assert(targets.has_stencil());
   context_->make_current();
   targets_ = &targets;

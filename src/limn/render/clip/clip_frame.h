@@ -25,7 +25,7 @@ struct HullStage {
   std::function<void(const gl::Program&, const ClipModel&)> prepare;
 };
 
-struct ClipOptions {
+struct ClipDrawOptions {
   ClipAntialias antialias = ClipAntialias::kNone;
   /// The coarsest silhouette is taken whose error is at most so many pixels wide; 0: the original's.
   float level_tolerance_px = 0.25f;
@@ -55,7 +55,7 @@ class ClipFrame {
 
   /// Begins a picture: clears the targets, whose colour, depth and stencil are drawn to until end(); binds the camera.
   /// \pre the targets have a stencil, and outlive the frame; one sample for kLines; camera.eye != camera.target
-  void begin(const RenderTargets& targets, const Camera& camera, const ClipOptions& options = {});
+  void begin(const RenderTargets& targets, const Camera& camera, const ClipDrawOptions& options = {});
 
   /// Draws a model; depth as the hull has it, or as the original where the asset has a displacement map. Ordinary
   /// geometry may be drawn before and after with any program: depth test on, stencil test off.
@@ -108,7 +108,7 @@ class ClipFrame {
   CameraBuffer camera_buffer_;
   CameraBlock camera_;
   float far_distance_ = 0;
-  ClipOptions options_;
+  ClipDrawOptions options_;
   const RenderTargets* targets_ = nullptr;
   int subpixel_bits_ = 4;
   std::vector<Box> counted_;  ///< where the stencil may not be 0

@@ -12,7 +12,7 @@
 namespace limn {
 namespace {
 
-Result<void> check_clip(const RenderOptions& options, const ClipOptions& clip) {
+Result<void> check_clip(const RenderOptions& options, const ClipDrawOptions& clip) {
   if (auto checked = check_picture(options); !checked) return checked;
   if (clip.antialias != ClipAntialias::kLines) return {};
   if (options.samples != 1)
@@ -37,7 +37,7 @@ std::vector<std::size_t> farthest_first(std::span<const ClipInstance> instances,
 }  // namespace
 
 Result<ClipPicture> render_clipped(gl::Context& context, std::span<const ClipInstance> instances, const Camera& camera,
-                                   const RenderOptions& options, const ClipOptions& clip) try {
+                                   const RenderOptions& options, const ClipDrawOptions& clip) try {
   if (auto checked = check_clip(options, clip); !checked) return tl::unexpected(checked.error());
   context.make_current();
   const auto targets =

@@ -28,6 +28,6 @@ struct ClipPicture {
 /// \pre camera.eye != camera.target. Errors: kInvalidArgument as render(), and for the combinations above;
 /// kNoGraphics.
 Result<ClipPicture> render_clipped(gl::Context& context, std::span<const ClipInstance> instances, const Camera& camera,
-                                   const RenderOptions& options = {}, const ClipOptions& clip = {});
+                                   const RenderOptions& options = {}, const ClipDrawOptions& clip = {});
 
 }  // namespace limn
