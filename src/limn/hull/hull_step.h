@@ -20,8 +20,8 @@ struct HullStep {
   /// The third corners of the faces at the edge: left of the face that runs kept → removed, right of the other.
   VertexId left = kInvalidId, right = kInvalidId;
   FaceId face_left = kInvalidId, face_right = kInvalidId;  ///< those faces; kCollapse kills them, kFlip re-uses them
-  Vec3 before{0};  ///< where kept was
-  Vec3 after{0};   ///< where kept is then
+  Vec3 before{0};                                          ///< where kept was
+  Vec3 after{0};                                           ///< where kept is then
 };
 
 }  // namespace limn
