@@ -11,7 +11,9 @@ struct HullStep {
   enum class Kind : std::uint8_t {
     kCollapse,  ///< edge (kept, removed) becomes the one vertex kept, at `after`; two faces die
     kMove,      ///< vertex kept moves to `after`
-    kFlip,      ///< edge (kept, removed) becomes edge (left, right); no vertex dies, two faces change
+    /// Edge (kept, removed) becomes edge (left, right): face_left becomes (kept, right, left), face_right (removed, left,
+    /// right); no vertex dies or moves.
+    kFlip,
   };
   Kind kind = Kind::kCollapse;
   VertexId kept = kInvalidId, removed = kInvalidId;  ///< removed: kInvalidId for kMove
