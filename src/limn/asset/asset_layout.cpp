@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "limn/base/hash64.h"
+#include "limn/base/hash.h"
 
 namespace limn::asset {
 
@@ -15,7 +15,7 @@ std::optional<std::size_t> find_checksum(std::string_view file) {
 }
 
 std::string checksum_of(std::string_view file, std::size_t at) {
-  Hash64 hash;
+  Hash hash;
   const auto add = [&hash](std::string_view text) { hash.add(std::as_bytes(std::span(text.data(), text.size()))); };
   add(file.substr(0, at));
   add(file.substr(at + kNoChecksum.size()));

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "limn/base/file.h"
-#include "limn/base/hash64.h"
+#include "limn/base/hash.h"
 
 namespace limn {
 namespace {
@@ -35,14 +35,8 @@ static_assert(sizeof(Header) == 88);
 /// Where the part that the hash covers begins: the frame, then everything after the header.
 constexpr std::size_t kHashed = offsetof(Header, frame);
 
-std::uint64_t hash_of(std::span<const std::byte> bytes) {
-  Hash64 hash;
-  hash.add(bytes);
-  return hash.value();
-}
-
 std::uint64_t mesh_hash(const Topology& topology, std::span<const Plane> planes) {
-  Hash64 hash;
+  Hash hash;
   hash.add(std::as_bytes(planes));
   hash.add(std::as_bytes(std::span(topology.edges)));
   hash.add(std::as_bytes(std::span(topology.edge_class)));

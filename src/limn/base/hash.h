@@ -8,8 +8,9 @@
 
 namespace limn {
 
-/// A 64-bit hash, eight bytes at a time: against damage and mix-ups, not against malice.
-class Hash64 {
+/// A 64-bit hash, eight bytes at a time: against damage and mix-ups in files, not against malice. Little-endian
+/// machines agree on it.
+class Hash {
  public:
   void add(std::span<const std::byte> bytes) {
     std::size_t at = 0;
@@ -32,5 +33,11 @@ class Hash64 {
   }
   std::uint64_t state_ = 0x6c696d6e74726565ull;
 };
+
+inline std::uint64_t hash_of(std::span<const std::byte> bytes) {
+  Hash hash;
+  hash.add(bytes);
+  return hash.value();
+}
 
 }  // namespace limn
