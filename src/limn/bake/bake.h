@@ -93,9 +93,9 @@ struct BakedMaps {
 ///
 /// A texel's point and normal are interpolated on its face of the low mesh (in the gutter: on the nearest point of the
 /// face). A ray runs from there against the normal, inwards; its first hit counts when the face it meets is turned the
-/// way the normal points. Else a ray along the normal, outwards, is asked in the same way. Where the high mesh is closed
-/// and does not meet itself, one of the two always counts at most: the first from outside, the second from inside. Where
-/// neither does, the closest point of the high mesh is taken, and the texel is a miss.
+/// way the normal points. Else a ray along the normal, outwards, is asked in the same way. Where the high mesh is
+/// closed and does not meet itself, one of the two always counts at most: the first from outside, the second from
+/// inside. Where neither does, the closest point of the high mesh is taken, and the texel is a miss.
 ///
 /// Normals: the low mesh's own, else smooth ones; the high mesh's own, else creased at 60°. Cost: about 0.15 µs a
 /// sample and core with Embree, three times that without. Same bits for any number of threads.
