@@ -2,7 +2,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <stb/stb_image_write.h>
 
 #include "limn/asset/asset_file.h"
 #include "limn/asset/asset_layout.h"
@@ -10,6 +9,7 @@
 #include "limn/asset/leaf_codec.h"
 #include "limn/asset/mesh_codec.h"
 #include "limn/base/file.h"
+#include "limn/image/deep_image.h"
 #include "limn/mesh/formats/formats.h"
 #include "limn/silhouette/search/leaf_partition.h"
 
@@ -26,16 +26,6 @@ Json vector_json(const Vec3& v) {
 std::vector<std::byte> bytes_of(const std::string& text) {
   const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
   return {bytes.begin(), bytes.end()};
-}
-
-Result<std::string> encode_png(const Image& image) {
-  std::string bytes;
-  const auto append = [](void* context, void* data, int size) {
-    static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-  };
-  if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.rgba.data(), 4 * image.width) != 0)
-    return bytes;
-  return fail(ErrorCode::kInvalidArgument, "are too large for a PNG encoder");
 }
 
 bool shows(const std::vector<std::byte>& encoded, const Image& image) {
