@@ -131,7 +131,7 @@ TEST(StencilLoops, OpenMeshesAreNotClosed) {
 std::size_t count_missed(const Mesh& mesh, const Camera& camera, int size_px, std::size_t& found, std::size_t& flipped) {
   const CameraBlock block = make_camera_block(camera, size_px, size_px);
   const std::vector<Plane> planes = face_planes(mesh);
-  const EdgeOnFaces faces(mesh, build_topology(mesh), planes);
+  const EdgeOnFaces faces(mesh, leaf_clusters(mesh, build_topology(mesh), planes), planes);
   PictureScale scale;
   scale.eye = eye_of(camera);
   const glm::dmat3 axes = glm::transpose(glm::dmat3(block.rotation));
