@@ -6,7 +6,8 @@
 namespace limn {
 
 /// One step from a shell towards its hull. Each moves the surface outwards or leaves it, nowhere inwards: a certificate
-/// holds for it on the stored coordinates (docs/hull.md). Vertices and faces keep their ids; steps only kill some.
+/// holds for it on the stored coordinates (docs/hull.md). Vertices and faces keep their ids; steps kill some, and
+/// cuts add some.
 struct HullStep {
   enum class Kind : std::uint8_t {
     kCollapse,  ///< edge (kept, removed) becomes the one vertex kept, at `after`; two faces die
@@ -14,6 +15,14 @@ struct HullStep {
     /// Edge (kept, removed) becomes edge (left, right): face_left becomes (kept, right, left), face_right (removed, left,
     /// right); no vertex dies or moves.
     kFlip,
+    /// The surface parts along the triangle (kept, removed, left), three of its edges but none of its faces: what lies to
+    /// their right gets three new vertices at the same places, ids right, right + 1, right + 2, and both sides are closed
+    /// by a new face, face_left (kept, left, removed) and face_right == face_left + 1 (right, right + 1, right + 2), which
+    /// lie back to back. Ids continue those of the surface: vertex_count and face_count of the shell plus earlier cuts'.
+    kCut,
+    /// The part that is the tetrahedron (kept, removed, left), (removed, kept, right) and two more faces goes: it winds
+    /// inwards, the wall of a cavity, which is full then. face_left, face_right and the other two faces die.
+    kVanish,
   };
   Kind kind = Kind::kCollapse;
   VertexId kept = kInvalidId, removed = kInvalidId;  ///< removed: kInvalidId for kMove

@@ -1,6 +1,7 @@
 #include "limn/hull/ring_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -136,6 +137,8 @@ void RingSurface::apply(const HullStep& step) {
   switch (step.kind) {
     case HullStep::Kind::kCollapse: collapse(step); break;
     case HullStep::Kind::kFlip: flip(step); break;
+    case HullStep::Kind::kCut: cut(step); break;
+    case HullStep::Kind::kVanish: vanish(step); break;
     case HullStep::Kind::kMove:
       positions_[step.kept] = step.after;
       update_planes(step.kept);
@@ -179,6 +182,63 @@ void RingSurface::flip(const HullStep& step) {
   insert_after(step.right, b, {step.left, step.face_left});
   update_plane(a, link(a, step.right), step.left);
   update_plane(b, link(b, step.left), step.right);
+}
+
+VertexId RingSurface::waist(VertexId a, VertexId b) const {
+  const std::span<const RingLink> links = ring(a);
+  const std::size_t place = find(a, b);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (i == place || i == after(place, links.size()) || i == before(place, links.size())) continue;
+    if (find(b, links[i].vertex) < degree(b)) return links[i].vertex;
+  }
+  return kInvalidId;
+}
+
+HullStep RingSurface::cut_step(VertexId a, VertexId b, VertexId c) const {
+  const auto vertices = static_cast<VertexId>(positions_.size());
+  const auto faces = static_cast<FaceId>(planes_.size());
+  return {HullStep::Kind::kCut, a, b, c, vertices, faces, faces + 1, positions_[a], positions_[a]};
+}
+
+void RingSurface::cut(const HullStep& step) {
+  for (const VertexId v : {step.kept, step.removed, step.left}) {
+    positions_.push_back(positions_[v]);
+    slots_.push_back({static_cast<std::uint32_t>(links_.size()), 0, 0});
+  }
+  planes_.resize(planes_.size() + 2);
+  for (int corner = 0; corner < 3; ++corner)
+    cut_ring(step, corner);
+  update_plane(step.kept, link(step.kept, step.left), step.removed);
+  update_plane(step.right, link(step.right, step.right + 1), step.right + 2);
+  live_faces_ += 2;
+}
+
+/// Parts the ring of one corner of the cut: what lies to the left of the way through it stays.
+void RingSurface::cut_ring(const HullStep& step, int corner) {
+  const std::array<VertexId, 3> old{step.kept, step.removed, step.left};
+  const std::size_t here = static_cast<std::size_t>(corner), next = (here + 1) % 3, last = (here + 2) % 3;
+  const VertexId v = old[here];
+  const VertexId copy = step.right + static_cast<VertexId>(corner);
+  const std::span<const RingLink> links = ring(v);
+  std::vector<RingLink> left, right;
+  std::size_t i = find(v, old[next]);
+  for (; links[i].vertex != old[last]; i = after(i, links.size()))
+    left.push_back(links[i]);
+  left.push_back({old[last], step.face_left});
+  right.push_back({step.right + static_cast<VertexId>(last), links[i].face});
+  for (i = after(i, links.size()); links[i].vertex != old[next]; i = after(i, links.size())) {
+    right.push_back(links[i]);
+    link(links[i].vertex, v).vertex = copy;
+  }
+  right.push_back({step.right + static_cast<VertexId>(next), step.face_right});
+  store_ring(v, left);
+  store_ring(copy, right);
+}
+
+void RingSurface::vanish(const HullStep& step) {
+  for (const VertexId v : {step.kept, step.removed, step.left, step.right})
+    slots_[v].degree = 0;
+  live_faces_ -= 4;
 }
 
 RingLink& RingSurface::link(VertexId v, VertexId neighbour) {

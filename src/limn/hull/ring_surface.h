@@ -52,10 +52,14 @@ class RingSurface {
   /// Whether the surface stays a closed manifold without double edges when the edge collapses.
   bool can_collapse(VertexId kept, VertexId removed) const;
   bool can_flip(VertexId a, VertexId b) const;
+  /// A third vertex that both ends of an edge are joined to, though it is no face: kInvalidId where there is none.
+  VertexId waist(VertexId a, VertexId b) const;
+  HullStep cut_step(VertexId a, VertexId b, VertexId c) const;
 
   /// Carries out a step made by the functions above, or a move. \pre can_collapse or can_flip, as the kind may be
   void apply(const HullStep& step);
 
+  void kill(const std::vector<VertexId>& vs, std::size_t faces) { for (VertexId v : vs) slots_[v].degree = 0; live_faces_ -= faces; }
   /// The live faces as corners, in ascending order of their ids; `ids` gets those.
   std::vector<Triangle> faces(std::vector<FaceId>& ids) const;
 
@@ -69,6 +73,9 @@ class RingSurface {
   void compute_all_planes();
   void collapse(const HullStep& step);
   void flip(const HullStep& step);
+  void cut(const HullStep& step);
+  void cut_ring(const HullStep& step, int corner);
+  void vanish(const HullStep& step);
   RingLink& link(VertexId v, VertexId neighbour);
   RingLink erase(VertexId v, VertexId neighbour);
   void insert_after(VertexId v, VertexId neighbour, const RingLink& link);
