@@ -52,7 +52,8 @@ struct Surface {
 
   FaceId face_at(double share) const {
     const auto found = std::upper_bound(areas.begin(), areas.end(), share * total);
-    return static_cast<FaceId>(std::min<std::size_t>(static_cast<std::size_t>(found - areas.begin()), faces.size() - 1));
+    return static_cast<FaceId>(
+        std::min<std::size_t>(static_cast<std::size_t>(found - areas.begin()), faces.size() - 1));
   }
 
   /// Whether just behind the face, near the point, the surface winds at least once.
@@ -137,9 +138,8 @@ void look_elsewhere(const Surface& inner, const Surface& outer, std::size_t coun
 
 /// From the bytes of the file alone, but for the hull that must come out of it.
 std::string objection_to_sequence(const Hull& hull, bool inwards, EnclosureTally& tally) {
-  const Result<HullSequence> made =
-      HullSequence::make(hull.shell, inwards ? std::vector<HullStep>{} : hull.steps,
-                         inwards ? hull.steps : std::vector<HullStep>{});
+  const Result<HullSequence> made = HullSequence::make(hull.shell, inwards ? std::vector<HullStep>{} : hull.steps,
+                                                       inwards ? hull.steps : std::vector<HullStep>{});
   if (!made) return "sequence: " + format_error(made.error());
   const Result<HullSequence> read = parse_hull_sequence(hull_sequence_bytes(*made), "sequence");
   if (!read) return format_error(read.error());

@@ -86,8 +86,12 @@ Mesh random_solid(std::uint64_t seed) {
       mesh = shape(Shape::kIcosphere, faces, 1);
       roughen(mesh, random, random.uniform(0, 0.5));
       break;
-    case 1: mesh = shape(Shape::kAsteroid, faces, random.next() % 1000); break;
-    case 2: mesh = any_shape(random, faces); break;
+    case 1:
+      mesh = shape(Shape::kAsteroid, faces, random.next() % 1000);
+      break;
+    case 2:
+      mesh = any_shape(random, faces);
+      break;
     case 3:
       mesh = any_shape(random, faces / 2);
       for (std::uint64_t parts = 1 + random.below(3); parts > 0; --parts) {

@@ -1,8 +1,10 @@
 #include "support/certificate.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "support/exact.h"
@@ -84,11 +86,13 @@ class Checker {
     const std::size_t count = surface_.places.size();
     if (step.kept >= count || surface_.at[step.kept].empty()) return "no such vertex";
     if (step.kind == HullStep::Kind::kMove) return replace(step, std::set<FaceId>(surface_.at[step.kept]));
+    if (step.kind == HullStep::Kind::kCut) return cut(step);
     if (step.removed >= count || step.left >= count || step.right >= count) return "no such edge";
     if (!surface_.is_face(step.face_left, step.kept, step.removed, step.left) ||
         !surface_.is_face(step.face_right, step.removed, step.kept, step.right))
       return "no such faces";
     if (step.kind == HullStep::Kind::kFlip) return flip(step);
+    if (step.kind == HullStep::Kind::kVanish) return vanish(step);
     std::set<FaceId> around = surface_.at[step.kept];
     around.insert(surface_.at[step.removed].begin(), surface_.at[step.removed].end());
     return replace(step, around);
@@ -131,6 +135,79 @@ class Checker {
     surface_.enter(step.face_left);
     surface_.enter(step.face_right);
     return tightness({step.face_left, step.face_right});
+  }
+
+  /// Two faces back to back come in, which change no winding number. Every side must have its partner afterwards: which
+  /// faces went to the copies then makes no difference to any.
+  std::string cut(const HullStep& step) {
+    const std::array<VertexId, 3> old{step.kept, step.removed, step.left};
+    const auto count = static_cast<VertexId>(surface_.places.size());
+    for (const VertexId v : old) {
+      if (v >= count || surface_.at[v].empty()) return "no such vertex";
+    }
+    if (step.right != count || step.face_left != surface_.faces.size() || step.face_right != step.face_left + 1)
+      return "new ids do not continue the others";
+    std::vector<std::pair<FaceId, Triangle>> renamed;
+    for (std::size_t i = 0; i < 3; ++i) {
+      VertexId next = old[(i + 2) % 3];
+      for (std::size_t turns = surface_.at[old[i]].size(); next != old[(i + 1) % 3]; --turns) {
+        const FaceId f = face_from(old[i], next);
+        if (f == kInvalidId || turns == 0) return "no such cut";
+        const auto known =
+            std::find_if(renamed.begin(), renamed.end(), [&](const auto& one) { return one.first == f; });
+        if (known == renamed.end()) renamed.emplace_back(f, surface_.faces[f]);
+        Triangle& t = known == renamed.end() ? renamed.back().second : known->second;
+        const Triangle& before = surface_.faces[f];
+        for (std::size_t c = 0; c < 3; ++c) {
+          if (before[c] != old[i]) continue;
+          next = before[(c + 2) % 3];
+          t[c] = step.right + static_cast<VertexId>(i);
+        }
+      }
+    }
+    std::vector<FaceId> touched;
+    for (const auto& [f, t] : renamed)
+      surface_.leave(f);
+    for (const VertexId v : old)
+      surface_.places.push_back(surface_.places[v]);
+    surface_.at.resize(surface_.places.size());
+    surface_.faces.push_back({step.kept, step.left, step.removed});
+    surface_.faces.push_back({step.right, step.right + 1, step.right + 2});
+    for (const auto& [f, t] : renamed) {
+      surface_.faces[f] = t;
+      surface_.enter(f);
+      touched.push_back(f);
+    }
+    for (const FaceId f : {step.face_left, step.face_right}) {
+      surface_.enter(f);
+      touched.push_back(f);
+    }
+    for (const VertexId v : old)
+      touched.insert(touched.end(), surface_.at[v].begin(), surface_.at[v].end());
+    return tightness(touched);
+  }
+
+  /// The face in which a side runs from a to b.
+  FaceId face_from(VertexId a, VertexId b) const {
+    for (const FaceId f : surface_.at[a]) {
+      const Triangle& t = surface_.faces[f];
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (t[c] == a && t[(c + 1) % 3] == b) return f;
+      }
+    }
+    return kInvalidId;
+  }
+
+  /// A tetrahedron wound inwards took 1 from the winding number inside it.
+  std::string vanish(const HullStep& step) {
+    if (!proves(surface_.side_of(step.face_left, surface_.places[step.right]))) return "the part winds outwards";
+    std::set<FaceId> part;
+    for (const VertexId v : {step.kept, step.removed, step.left, step.right})
+      part.insert(surface_.at[v].begin(), surface_.at[v].end());
+    if (part.size() != 4) return "the part is no tetrahedron";
+    for (const FaceId f : part)
+      surface_.leave(f);
+    return {};
   }
 
   std::string tightness(const std::vector<FaceId>& faces) const {
