@@ -25,7 +25,8 @@ struct HullStep {
     /// the plane of each of its faces.
     kFill,
     /// The part that vertex kept belongs to goes with all its faces: it lies where the others' winding number is
-    /// positive, so that no point changes from inside to outside. The one kind that lowers a winding number.
+    /// positive, so that no point changes from inside to outside. The one kind that lowers a winding number; drops in a
+    /// row count as one step: the others are those that are left after the last.
     kDrop,
   };
   Kind kind = Kind::kCollapse;

@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kFollowed = 1 << 14;   // vertices that a waist's sides are followed over
 constexpr std::size_t kFillable = 512;       // faces of a cavity that is tried to fill at once
 constexpr std::size_t kCornerTries = 32;     // vertices of a cavity that are tried as the point it is seen from
+constexpr std::size_t kSmallPart = 128;      // faces of a part that may go together with others
+constexpr std::size_t kGroup = 64;           // parts that go together
 constexpr std::size_t kBoxTests = 20000000;  // of one cleaning
 
 double volume_of(const std::vector<Triangle>& faces, const RingSurface& surface) {
@@ -229,44 +231,63 @@ std::vector<PartSurgery::Part> PartSurgery::find_parts() {
   return parts;
 }
 
-/// Whether no other part comes near, and the others' winding number is positive there. Tetrahedra that wind outwards
-/// may be left out of account: they only raise it.
-bool PartSurgery::is_hidden(const Part& part, const std::vector<Part>& parts) const {
+/// The part and what small parts lie about it, when the winding number of all the others is positive all over the box
+/// around them; else none. Tetrahedra that wind outwards may be left out of account: they only raise it.
+std::vector<std::size_t> PartSurgery::hidden_group(std::size_t first, const std::vector<Part>& parts) const {
+  std::vector<std::size_t> group{first};
+  std::vector<std::uint8_t> is_in(parts.size(), 0);
+  is_in[first] = 1;
   Bounds box;
-  for (const VertexId v : part.vertices)
-    box.add(surface_.position(v));
-  std::vector<Vec3> corners;
-  std::vector<Triangle> faces;
-  for (const Part& other : parts) {
-    if (&other == &part || other.faces.empty() || other.positive_tetrahedron) continue;
-    for (const auto& [a, b, c] : other.faces) {
-      const Vec3 &p = surface_.position(a), &q = surface_.position(b), &r = surface_.position(c);
-      if (!is_clear_of(box, p, q, r)) return false;
-      const auto first = static_cast<VertexId>(corners.size());
-      faces.push_back({first, first + 1, first + 2});
-      corners.insert(corners.end(), {p, q, r});
+  for (std::size_t done = 0; done < group.size(); ++done) {
+    for (const VertexId v : parts[group[done]].vertices)
+      box.add(surface_.position(v));
+    if (done + 1 < group.size()) continue;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Part& other = parts[i];
+      if (is_in[i] != 0 || other.positive_tetrahedron || is_clear(box, other)) continue;
+      if (other.faces.size() > kSmallPart || group.size() == kGroup) return {};
+      is_in[i] = 1;
+      group.push_back(i);
     }
   }
-  const std::optional<int> winding = winding_number(corners, faces, surface_.position(part.vertices.front()));
-  return winding.has_value() && *winding > 0;
+  std::vector<Triangle> faces;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (is_in[i] == 0 && !parts[i].positive_tetrahedron)
+      faces.insert(faces.end(), parts[i].faces.begin(), parts[i].faces.end());
+  }
+  const VertexId v = parts[first].vertices.front();
+  const std::optional<int> winding = winding_number(surface_.positions(), faces, surface_.position(v));
+  if (!winding.has_value() || *winding <= 0) return {};
+  return group;
+}
+
+bool PartSurgery::is_clear(const Bounds& box, const Part& part) const {
+  return std::all_of(part.faces.begin(), part.faces.end(), [&](const Triangle& face) {
+    return is_clear_of(box, surface_.position(face[0]), surface_.position(face[1]), surface_.position(face[2]));
+  });
 }
 
 bool PartSurgery::clean(std::vector<VertexId>& changed) {
   std::vector<Part> parts = find_parts();
   const std::size_t steps = log_.size();
-  std::size_t tests = 0;
-  for (std::size_t i = 0; i + 1 < parts.size() && tests < kBoxTests; ++i) {
-    Part& part = parts[i];
-    tests += surface_.live_faces();
-    bool gone = fill(part);
-    if (!gone && is_hidden(part, parts)) {
-      go(part, HullStep::Kind::kDrop, surface_.position(part.vertices.front()));
-      ++dropped_;
-      gone = true;
-    }
-    if (!gone) continue;
+  const auto forget = [&](Part& part) {
     changed.insert(changed.end(), part.vertices.begin(), part.vertices.end());
     part.faces.clear();
+    part.vertices.clear();
+  };
+  std::size_t tests = 0;
+  for (std::size_t i = 0; i + 1 < parts.size() && tests < kBoxTests; ++i) {
+    tests += surface_.live_faces();
+    if (parts[i].faces.empty()) continue;
+    if (fill(parts[i])) {
+      forget(parts[i]);
+      continue;
+    }
+    for (const std::size_t k : hidden_group(i, parts)) {
+      go(parts[k], HullStep::Kind::kDrop, surface_.position(parts[k].vertices.front()));
+      ++dropped_;
+      forget(parts[k]);
+    }
   }
   return log_.size() > steps;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "limn/base/bounds.h"
 #include "limn/hull/certificate.h"
 #include "limn/hull/ring_surface.h"
 
@@ -52,7 +53,8 @@ class PartSurgery {
   std::vector<Vec3> star_centers(const Part& part) const;
   Part make_part(std::vector<VertexId> vertices) const;
   std::vector<Part> find_parts();
-  bool is_hidden(const Part& part, const std::vector<Part>& parts) const;
+  std::vector<std::size_t> hidden_group(std::size_t first, const std::vector<Part>& parts) const;
+  bool is_clear(const Bounds& box, const Part& part) const;
   void go(const Part& part, HullStep::Kind kind, const Vec3& witness);
 
   RingSurface& surface_;

@@ -37,6 +37,7 @@ class RingSurface {
   bool alive(VertexId v) const { return slots_[v].degree != 0; }
   std::uint32_t degree(VertexId v) const { return slots_[v].degree; }
   std::span<const RingLink> ring(VertexId v) const { return {links_.data() + slots_[v].begin, slots_[v].degree}; }
+  std::span<const Vec3> positions() const { return positions_; }
   const Vec3& position(VertexId v) const { return positions_[v]; }
   const FacePlane& plane(FaceId f) const { return planes_[f]; }
   /// Place of a neighbour in the ring of v; degree(v) where it is none.
