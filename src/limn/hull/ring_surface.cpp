@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <unordered_set>
 
 namespace limn {
 namespace {
@@ -100,8 +101,8 @@ HullStep RingSurface::collapse_step(VertexId kept, VertexId removed, const Vec3&
   const std::size_t place = find(kept, removed);
   const RingLink& left = links[after(place, links.size())];
   const RingLink& right = links[before(place, links.size())];
-  return {HullStep::Kind::kCollapse, kept,           removed, left.vertex, right.vertex, links[place].face, right.face,
-          positions_[kept],          after_collapse};
+  return {HullStep::Kind::kCollapse, kept,       removed,          left.vertex,   right.vertex,
+          links[place].face,         right.face, positions_[kept], after_collapse};
 }
 
 HullStep RingSurface::flip_step(VertexId a, VertexId b) const {
@@ -114,9 +115,7 @@ bool RingSurface::can_collapse(VertexId kept, VertexId removed) const {
   const std::span<const RingLink> a = ring(kept);
   const std::span<const RingLink> b = ring(removed);
   const std::size_t place = find(kept, removed);
-  const VertexId left = a[after(place, a.size())].vertex;
-  const VertexId right = a[before(place, a.size())].vertex;
-  if (degree(left) <= 3 || degree(right) <= 3) return false;
+  if (degree(a[after(place, a.size())].vertex) <= 3 || degree(a[before(place, a.size())].vertex) <= 3) return false;
   int common = 0;
   for (const RingLink& x : a) {
     for (const RingLink& y : b)
@@ -135,10 +134,19 @@ bool RingSurface::can_flip(VertexId a, VertexId b) const {
 
 void RingSurface::apply(const HullStep& step) {
   switch (step.kind) {
-    case HullStep::Kind::kCollapse: collapse(step); break;
-    case HullStep::Kind::kFlip: flip(step); break;
-    case HullStep::Kind::kCut: cut(step); break;
-    case HullStep::Kind::kVanish: vanish(step); break;
+    case HullStep::Kind::kCollapse:
+      collapse(step);
+      break;
+    case HullStep::Kind::kFlip:
+      flip(step);
+      break;
+    case HullStep::Kind::kCut:
+      cut(step);
+      break;
+    case HullStep::Kind::kFill:
+    case HullStep::Kind::kDrop:
+      remove_part(step.kept);
+      break;
     case HullStep::Kind::kMove:
       positions_[step.kept] = step.after;
       update_planes(step.kept);
@@ -235,10 +243,24 @@ void RingSurface::cut_ring(const HullStep& step, int corner) {
   store_ring(copy, right);
 }
 
-void RingSurface::vanish(const HullStep& step) {
-  for (const VertexId v : {step.kept, step.removed, step.left, step.right})
-    slots_[v].degree = 0;
-  live_faces_ -= 4;
+std::vector<VertexId> RingSurface::part_of(VertexId v) const {
+  std::vector<VertexId> part{v};
+  std::unordered_set<VertexId> seen{v};
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    for (const RingLink& link : ring(part[i])) {
+      if (seen.insert(link.vertex).second) part.push_back(link.vertex);
+    }
+  }
+  return part;
+}
+
+void RingSurface::remove_part(VertexId v) {
+  std::size_t corners = 0;
+  for (const VertexId gone : part_of(v)) {
+    corners += slots_[gone].degree;
+    slots_[gone].degree = 0;
+  }
+  live_faces_ -= corners / 3;
 }
 
 RingLink& RingSurface::link(VertexId v, VertexId neighbour) {
@@ -274,8 +296,8 @@ void RingSurface::store_ring(VertexId v, std::span<const RingLink> ring) {
 
 void RingSurface::update_plane(VertexId v, const RingLink& link, VertexId next) {
   const DVec3 origin(positions_[v]);
-  const DVec3 normal = glm::cross((DVec3(positions_[link.vertex]) - origin) * scale_,
-                                  (DVec3(positions_[next]) - origin) * scale_);
+  const DVec3 normal =
+      glm::cross((DVec3(positions_[link.vertex]) - origin) * scale_, (DVec3(positions_[next]) - origin) * scale_);
   const double length = glm::length(normal);
   const double inverse = length > 0.0 ? 1.0 / length : 0.0;
   planes_[link.face] = {Vec3(normal * inverse), static_cast<float>(0.5 * length)};

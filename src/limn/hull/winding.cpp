@@ -39,8 +39,7 @@ std::optional<int> crossings(std::span<const Vec3> positions, std::span<const Tr
 
 }  // namespace
 
-std::optional<int> winding_number(std::span<const Vec3> positions, std::span<const Triangle> faces,
-                                  const Vec3& point) {
+std::optional<int> winding_number(std::span<const Vec3> positions, std::span<const Triangle> faces, const Vec3& point) {
   Bounds box;
   box.add(point);
   for (const Triangle& face : faces) {

@@ -11,7 +11,8 @@ namespace limn {
 
 /// How often the closed surface winds around a point, exactly: signed crossings of a segment from the point to one
 /// outside, by orientation tests on the coordinates as they are. Nothing where the point lies on the surface, or where
-/// every segment tried meets an edge. Cost: linear in the faces. \pre every edge's faces run along it in opposite directions
+/// every segment tried meets an edge. Cost: linear in the faces. \pre every edge's faces run along it in opposite
+/// directions
 std::optional<int> winding_number(std::span<const Vec3> positions, std::span<const Triangle> faces, const Vec3& point);
 
 /// Whether a box surely keeps clear of a triangle, its border included: apart along an axis, or all of the box strictly
