@@ -22,7 +22,7 @@ namespace limn {
 /// maker proves (progressive_hull.h).
 class HullSequence {
  public:
-  /// \param outer, inner  as build_hull() gives them with keep_steps, both in the shell's orientation; may be empty
+  /// \param outer, inner  as build_hull() gives them with keep_steps; may be empty
   /// \param uvs           one a vertex of the shell, or none
   /// Cost: linear. Same bits for any number of threads.
   /// Errors: kInvalidArgument, naming the step, where one does not fit the surface that those before it made, or where
@@ -78,7 +78,7 @@ class HullSequence {
     std::vector<VertexId> vanished{};
     std::size_t cuts = 0;
   };
-  static Result<void> go(const Shell& shell, std::string_view name, Way& way);
+  static Result<void> go(const Shell& shell, bool inwards, Way& way);
 
   HullSequence() = default;
 
@@ -108,7 +108,7 @@ class HullCursor {
   bool is_alive(FaceId face) const { return alive_[face] != 0; }
 
  private:
-  void take(const HullSequence::Way& way, std::size_t number);
+  void take(const HullSequence::Way& way, bool inwards, std::size_t number);
   void take_back(const HullSequence::Way& way, std::size_t number);
   void set_alive(FaceId face, bool alive);
 
