@@ -80,28 +80,36 @@ class Checker {
     for (FaceId f = 0; f < surface_.faces.size(); ++f) {
       if (!surface_.is_tight(f)) return {"the shell is not closed", 0, 0};
     }
-    for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (std::size_t i = 0; i < steps.size();) {
+      if (steps[i].kind == HullStep::Kind::kDrop) {
+        const std::size_t dropped = drop(steps.subspan(i));
+        if (dropped == 0) return stopped(i, "nothing shows that what is dropped lies inside the others");
+        i += dropped;
+        continue;
+      }
       HullStep step = steps[i];
       if (inwards_ && (step.kind == HullStep::Kind::kCollapse || step.kind == HullStep::Kind::kFlip)) {
         std::swap(step.left, step.right);
         std::swap(step.face_left, step.face_right);
       }
-      const std::string objection = take(step);
-      if (objection.empty()) continue;
-      check_.objection = "step " + std::to_string(i) + ": " + objection;
-      break;
+      if (const std::string objection = take(step); !objection.empty()) return stopped(i, objection);
+      ++i;
     }
     return check_;
   }
 
  private:
+  CertificateCheck stopped(std::size_t step, const std::string& objection) {
+    check_.objection = "step " + std::to_string(step) + ": " + objection;
+    return check_;
+  }
+
   std::string take(const HullStep& step) {
     const std::size_t count = surface_.places.size();
     if (step.kept >= count || surface_.at[step.kept].empty()) return "no such vertex";
     if (step.kind == HullStep::Kind::kMove) return replace(step, std::set<FaceId>(surface_.at[step.kept]));
     if (step.kind == HullStep::Kind::kCut) return cut(step);
     if (step.kind == HullStep::Kind::kFill) return fill(step);
-    if (step.kind == HullStep::Kind::kDrop) return drop(step);
     if (step.removed >= count || step.left >= count || step.right >= count) return "no such edge";
     if (!surface_.is_face(step.face_left, step.kept, step.removed, step.left) ||
         !surface_.is_face(step.face_right, step.removed, step.kept, step.right))
@@ -242,25 +250,54 @@ class Checker {
     return remove(part);
   }
 
-  /// Nothing of what stays comes near the part's box, and there it winds once at least: still inside when the part has
-  /// gone.
-  std::string drop(const HullStep& step) {
-    const std::set<FaceId> part = part_of(step.kept);
+  /// Parts may be dropped together: the fewest of the coming drops that are proved at once; 0 where none are. Nothing
+  /// of what stays comes near the box of those that go, and there it winds once at least: still inside when they have
+  /// gone. Tetrahedra that wind outwards are left out of account, since they can only add to that.
+  std::size_t drop(std::span<const HullStep> steps) {
+    std::set<FaceId> going;
     Bounds box;
-    for (const FaceId f : part) {
-      for (const VertexId v : surface_.faces[f])
-        box.add(surface_.places[v]);
+    for (std::size_t i = 0; i < steps.size() && steps[i].kind == HullStep::Kind::kDrop; ++i) {
+      if (steps[i].kept >= surface_.places.size()) return 0;
+      for (const FaceId f : part_of(steps[i].kept)) {
+        going.insert(f);
+        for (const VertexId v : surface_.faces[f])
+          box.add(surface_.places[v]);
+      }
+      if (going.empty() || !is_hidden(going, box, surface_.places[steps[i].kept])) continue;
+      remove(going);
+      return i + 1;
     }
+    return 0;
+  }
+
+  bool is_hidden(const std::set<FaceId>& going, const Bounds& box, const Vec3& point) {
     std::vector<Triangle> others;
     for (FaceId f = 0; f < surface_.faces.size(); ++f) {
-      if (!surface_.at[surface_.faces[f][0]].contains(f) || part.contains(f)) continue;
-      if (!is_clear(box, f)) return "face " + std::to_string(f) + " may cross the box of the part dropped";
-      ++check_.proved;
-      others.push_back(surface_.faces[f]);
+      if (!surface_.at[surface_.faces[f][0]].contains(f) || going.contains(f)) continue;
+      if (!is_clear(box, f)) {
+        if (!is_outward_tetrahedron(f)) return false;
+        continue;
+      }
+      if (!is_outward_tetrahedron(f)) others.push_back(surface_.faces[f]);
     }
-    const Winding winding(surface_.places, others);
-    if (winding.at(DVec3(surface_.places[step.kept])) <= 0) return "the part dropped is not inside the others";
-    return remove(part);
+    if (Winding(surface_.places, others).at(DVec3(point)) <= 0) return false;
+    check_.proved += others.size();
+    return true;
+  }
+
+  bool is_outward_tetrahedron(FaceId f) const {
+    const Triangle& t = surface_.faces[f];
+    for (const VertexId v : t) {
+      if (surface_.at[v].size() != 3) return false;
+    }
+    const std::set<FaceId> part = part_of(t[0]);
+    if (part.size() != 4) return false;
+    for (const FaceId other : part) {
+      for (const VertexId v : surface_.faces[other]) {
+        if (v != t[0] && v != t[1] && v != t[2]) return surface_.side_of(f, surface_.places[v]) < 0;
+      }
+    }
+    return false;
   }
 
   /// Apart along an axis, or with all corners on one side of the face.

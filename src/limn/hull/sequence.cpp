@@ -56,7 +56,10 @@ Result<void> HullSequence::go(const Shell& shell, bool inwards, Way& way) {
     way.killed_offsets.push_back(static_cast<std::uint32_t>(way.killed.size()));
     way.vanished_offsets.push_back(static_cast<std::uint32_t>(way.vanished.size()));
     way.faces.push_back(static_cast<std::uint32_t>(replay.face_count()));
-    way.fewest.push_back(std::min(way.fewest.back(), way.faces.back()));
+    // Parts may be dropped together, and are proved together: what lies between is no hull.
+    const bool between = step.kind == HullStep::Kind::kDrop && i + 1 < way.steps.size() &&
+                         way.steps[i + 1].kind == HullStep::Kind::kDrop;
+    way.fewest.push_back(between ? way.fewest.back() : std::min(way.fewest.back(), way.faces.back()));
     way.cuts += step.kind == HullStep::Kind::kCut;
   }
   return {};

@@ -69,7 +69,7 @@ class HullSequence {
   struct Way {
     std::vector<HullStep> steps;
     std::vector<std::uint32_t> faces{};   ///< one more than steps: faces after so many
-    std::vector<std::uint32_t> fewest{};  ///< and the fewest so far
+    std::vector<std::uint32_t> fewest{};  ///< the fewest so far, of levels that are hulls
     std::vector<std::uint32_t> corner_offsets{};
     std::vector<CornerChange> corners{};
     std::vector<std::uint32_t> killed_offsets{};
