@@ -140,6 +140,32 @@ TEST(Shell, PartsSolidsThatTouch) {
   EXPECT_TRUE(has_note(*vertex, "parted 1 vertex"));
 }
 
+TEST(Shell, PartsManyWedgesAtAnEdgeEachByItself) {
+  // Thin tetrahedra about one edge, in any order: parted, each is closed by itself. Wrongly paired, faces of different
+  // ones would hang together.
+  constexpr int kWedges = 9;
+  Mesh mesh;
+  mesh.positions = {{0, 0, -1}, {0.3f, 0.1f, 1}};
+  std::vector<std::array<double, 2>> wedges;
+  for (int i = 0; i < kWedges; ++i)
+    wedges.push_back({i * 0.69, i * 0.69 + 0.5});
+  Random random(7);
+  for (std::size_t i = wedges.size(); i > 1; --i)
+    std::swap(wedges[i - 1], wedges[random.below(i)]);
+  for (const auto& [from, to] : wedges) {
+    const auto first = static_cast<VertexId>(mesh.positions.size());
+    for (const double turn : {from, to})
+      mesh.positions.emplace_back(std::cos(turn), std::sin(turn), 0);
+    const VertexId a = first, b = first + 1;
+    for (const Triangle& t : {Triangle{0, 1, b}, Triangle{1, 0, a}, Triangle{0, b, a}, Triangle{1, a, b}})
+      mesh.faces.push_back(t);
+  }
+  const Result<Shell> shell = make_shell(mesh);
+  ASSERT_TRUE(shell) << format_error(shell.error());
+  expect_valid(*shell, mesh);
+  EXPECT_EQ(shell->positions.size(), 4u * kWedges);
+}
+
 /// Cubes of side 1 that fill cells, their inner walls left out: what voxels become.
 Mesh voxels(const std::vector<std::array<int, 3>>& cells) {
   Mesh mesh;

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "limn/base/orient3d.h"
+
 namespace limn {
 namespace {
 
@@ -118,29 +120,44 @@ void take_out(const Topology& topology, SidePairs& pairs) {
 
 /// A side at an edge where more than two meet.
 struct Spoke {
-  double angle_rad;  ///< about the edge, from its lower to its upper vertex
+  Vec3 tip;  ///< the corner across from it
   SideId side;
   bool forward;
+  int quarter = 0;  ///< 0 along the first spoke, 1 less than half a turn on, 2 across from it, 3 more
 };
 
+/// Across the line from low to high; its length is that of the part across.
+DVec3 part_across(const DVec3& low, const DVec3& axis, const Vec3& tip) {
+  const DVec3 arm = DVec3(tip) - low;
+  return arm - axis * glm::dot(arm, axis);
+}
+
+/// The sides at the edge in the order of their angles about it, from its lower to its upper vertex. The order is exact:
+/// orientation tests tell which of two comes first.
 std::vector<Spoke> spokes_at(const Mesh& mesh, const Topology& topology, const SidePairs& pairs, EdgeId edge) {
-  const DVec3 low(mesh.positions[topology.edges[edge].v[0]]);
-  const DVec3 axis = glm::normalize(DVec3(mesh.positions[topology.edges[edge].v[1]]) - low);
-  // Any two directions across the axis will do: only the order around it counts.
-  const DVec3 least = std::abs(axis.x) <= std::abs(axis.y) && std::abs(axis.x) <= std::abs(axis.z) ? DVec3(1, 0, 0)
-                      : std::abs(axis.y) <= std::abs(axis.z)                                       ? DVec3(0, 1, 0)
-                                                                                                   : DVec3(0, 0, 1);
-  const DVec3 right = glm::normalize(glm::cross(axis, least));
-  const DVec3 up = glm::cross(axis, right);
+  const Vec3 low = mesh.positions[topology.edges[edge].v[0]], high = mesh.positions[topology.edges[edge].v[1]];
+  const DVec3 axis = glm::normalize(DVec3(high) - DVec3(low));
   std::vector<Spoke> spokes;
+  DVec3 along(0.0);  // of the spoke that stands out farthest: one that does not lie on the edge's own line
+  Vec3 first = low;
   for (const FaceId face : topology.edge_faces(edge)) {
     if (pairs.alive[face] == 0) continue;
     const SideId side = side_at(topology, face, edge);
-    const DVec3 arm = DVec3(mesh.positions[across(topology, side)]) - low;
-    spokes.push_back({std::atan2(glm::dot(arm, up), glm::dot(arm, right)), side, runs_forward(topology, side)});
+    spokes.push_back({mesh.positions[across(topology, side)], side, runs_forward(topology, side)});
+    const DVec3 part = part_across(DVec3(low), axis, spokes.back().tip);
+    if (glm::dot(part, part) <= glm::dot(along, along)) continue;
+    along = part;
+    first = spokes.back().tip;
   }
-  std::sort(spokes.begin(), spokes.end(), [](const Spoke& a, const Spoke& b) {
-    return a.angle_rad != b.angle_rad ? a.angle_rad < b.angle_rad : a.side < b.side;
+  for (Spoke& spoke : spokes) {
+    const int turned = orient3d(low, high, first, spoke.tip);
+    const bool back = turned == 0 && glm::dot(part_across(DVec3(low), axis, spoke.tip), along) < 0;
+    spoke.quarter = turned > 0 ? 1 : turned < 0 ? 3 : back ? 2 : 0;
+  }
+  std::sort(spokes.begin(), spokes.end(), [&](const Spoke& a, const Spoke& b) {
+    if (a.quarter != b.quarter) return a.quarter < b.quarter;
+    const int turned = a.quarter % 2 == 0 ? 0 : orient3d(low, high, a.tip, b.tip);
+    return turned != 0 ? turned > 0 : a.side < b.side;
   });
   return spokes;
 }
