@@ -23,7 +23,7 @@ struct HullOptions {
   /// Refuse steps whose new faces would cross others: an input without self-intersections then stays without.
   bool strict = false;
   bool keep_steps = false;  ///< fill Hull::steps, for a sequence file
-  Progress progress;
+  Progress progress = {};
 };
 
 /// What was reached, and what is proved of it.
