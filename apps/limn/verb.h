@@ -47,6 +47,7 @@ Verb make_verb();
 Verb refine_verb();
 Verb render_verb();
 Verb silhouette_verb();
+Verb bake_verb();
 Verb compare_verb();
 Verb help_verb();
 Verb version_verb();
