@@ -212,11 +212,7 @@ std::vector<std::string> failed_gates(const HullFlags& flags, const Outcome& out
                           static_cast<double>(outcome.intersections),
                           outcome.report ? outcome.report->worst_margin : std::numeric_limits<double>::quiet_NaN(),
                           outcome.time_ms};
-  std::vector<std::string> failed;
-  for (const Gate& gate : flags.gates) {
-    if (trips(gate, values)) failed.push_back(gate.text);
-  }
-  return failed;
+  return tripped(flags.gates, values);
 }
 
 Result<int> report(Session& session, const HullFlags& flags, const Outcome& outcome) {

@@ -48,6 +48,7 @@ Verb refine_verb();
 Verb hull_verb();
 Verb render_verb();
 Verb silhouette_verb();
+Verb bake_verb();
 Verb compare_verb();
 Verb help_verb();
 Verb version_verb();

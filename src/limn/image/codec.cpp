@@ -1,4 +1,3 @@
-#include <array>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "limn/base/file.h"
+#include "limn/image/crc32.h"
 #include "limn/image/image.h"
 
 namespace limn {
@@ -34,25 +34,6 @@ std::uint32_t big_endian_32(Bytes bytes, std::size_t at) {
   for (std::size_t i = 0; i < 4; ++i)
     value = value << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
   return value;
-}
-
-constexpr std::array<std::uint32_t, 256> make_crc_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t i = 0; i < 256; ++i) {
-    std::uint32_t value = i;
-    for (int bit = 0; bit < 8; ++bit)
-      value = (value & 1u) != 0 ? 0xedb88320u ^ (value >> 1) : value >> 1;
-    table[i] = value;
-  }
-  return table;
-}
-constexpr std::array<std::uint32_t, 256> kCrcTable = make_crc_table();
-
-std::uint32_t crc32(Bytes bytes) {
-  std::uint32_t crc = ~0u;
-  for (const std::byte b : bytes)
-    crc = kCrcTable[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xffu] ^ (crc >> 8);
-  return ~crc;
 }
 
 bool starts_with(Bytes bytes, std::string_view magic) {

@@ -1,0 +1,280 @@
+#include "limn/bake/texel_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "limn/bake/tangent_space.h"
+#include "limn/base/parallel.h"
+#include "limn/base/random.h"
+
+namespace limn::bake_detail {
+namespace {
+
+constexpr int kBlock = 8;
+constexpr std::size_t kBlockTexels = kBlock * kBlock;
+constexpr std::size_t kBlocksATask = 16;
+constexpr std::size_t kSteps = 32;         ///< of progress
+constexpr float kOcclusionOffset = 1e-4f;  // of the unit frame: off the surface, so that its own face does not block
+
+struct Texel {
+  int x = 0, y = 0;
+  std::size_t index = 0;
+  FaceId face = kInvalidId;
+};
+
+/// What a block found, to be added up in the order of blocks.
+struct BlockReport {
+  std::size_t texels = 0, misses = 0;
+  float worst = -1.0f;
+  Texel worst_texel;
+  float low = 0.0f, high = 0.0f;
+};
+
+/// A texel's sums over its samples.
+struct Sums {
+  Vec3 normal{0};
+  Vec4 color{0};
+  float displacement = 0;
+  float open = 0;
+  DVec3 position{0};
+};
+
+template <class T>
+T interpolated(const T (&corner)[3], const Barycentric& at) {
+  return corner[0] * (1.0f - at.u - at.v) + corner[1] * at.u + corner[2] * at.v;
+}
+
+Vec3 unit_or(const Vec3& v, const Vec3& instead) {
+  const float length = glm::dot(v, v);
+  return length > 1e-20f && std::isfinite(length) ? v / std::sqrt(length) : instead;
+}
+
+/// Neighbours stay neighbours: the place within a block of the i-th texel along a Z-shaped curve.
+std::array<int, 2> place_in_block(std::size_t i) {
+  const auto bits = [](std::size_t value) {
+    return static_cast<int>((value & 1) | (value >> 1 & 2) | (value >> 2 & 4));
+  };
+  return {bits(i), bits(i >> 1)};
+}
+
+/// Directions about n whose density is the cosine to it: Hammersley's points, moved by two random numbers.
+class Hemisphere {
+ public:
+  Hemisphere(const Vec3& n, Random random) : normal_(n), move_{random.uniform(), random.uniform()} {
+    side_ = glm::normalize(std::abs(n.x) < 0.7f ? glm::cross(n, Vec3(1, 0, 0)) : glm::cross(n, Vec3(0, 1, 0)));
+    other_ = glm::cross(n, side_);
+  }
+
+  Vec3 direction(std::size_t i, std::size_t count) const {
+    double a = (static_cast<double>(i) + 0.5) / static_cast<double>(count) + move_[0];
+    double b = radical_inverse(static_cast<std::uint32_t>(i)) + move_[1];
+    a -= std::floor(a);
+    b -= std::floor(b);
+    const double radius = std::sqrt(a), turn = 6.283185307179586 * b;
+    return static_cast<float>(radius * std::cos(turn)) * side_ + static_cast<float>(radius * std::sin(turn)) * other_ +
+           static_cast<float>(std::sqrt(1.0 - a)) * normal_;
+  }
+
+ private:
+  static double radical_inverse(std::uint32_t bits) {
+    double value = 0.0;
+    for (double weight = 0.5; bits != 0; bits >>= 1, weight *= 0.5)
+      value += (bits & 1u) != 0 ? weight : 0.0;
+    return value;
+  }
+
+  Vec3 normal_, side_{}, other_{};
+  std::array<double, 2> move_;
+};
+
+class Filler {
+ public:
+  Filler(const BakeScene& scene, BakedMaps& maps)
+      : scene_(scene),
+        maps_(maps),
+        side_(scene.options.samples == 16  ? 4
+              : scene.options.samples == 4 ? 2
+                                           : 1),
+        samples_(static_cast<std::size_t>(scene.options.samples)) {
+    const double scale = scene.frame.scale;
+    bound_ = bound_of(scene.options.max_distance, scale);
+    occlusion_bound_ = bound_of(scene.options.occlusion_distance, scale);
+    unit_length_ = static_cast<float>(1.0 / scale);
+  }
+
+  BlockReport fill_block(int block_x, int block_y) const {
+    BlockReport report;
+    std::array<Texel, kBlockTexels> texels;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kBlockTexels; ++i) {
+      const auto [dx, dy] = place_in_block(i);
+      Texel texel{block_x * kBlock + dx, block_y * kBlock + dy, 0, kInvalidId};
+      const int size = scene_.texels.size_px;
+      if (texel.x >= size || texel.y >= size) continue;
+      texel.index = static_cast<std::size_t>(texel.y) * static_cast<std::size_t>(size) + std::size_t(texel.x);
+      texel.face = scene_.texels.owner[texel.index];
+      if (texel.face != kInvalidId) texels[count++] = texel;
+    }
+    report.texels = count;
+    const std::size_t group = kProbeBatch / samples_;
+    for (std::size_t begin = 0; begin < count; begin += group)
+      fill_group(std::span(texels.data() + begin, std::min(group, count - begin)), report);
+    return report;
+  }
+
+ private:
+  static float bound_of(double distance, double scale) {
+    return distance > 0.0 ? static_cast<float>(distance * scale) : std::numeric_limits<float>::infinity();
+  }
+
+  Barycentric place(const Texel& texel, std::size_t sample) const {
+    const float step = 1.0f / static_cast<float>(side_);
+    const float dx = (static_cast<float>(sample % side_) + 0.5f) * step;
+    const float dy = (static_cast<float>(sample / side_) + 0.5f) * step;
+    return scene_.texels.at(texel.face, static_cast<float>(texel.x) + dx, static_cast<float>(texel.y) + dy);
+  }
+
+  Probe probe_at(const LowFace& face, const Barycentric& at) const {
+    const Vec3 normal = interpolated(face.normal, at);
+    Probe probe{interpolated(face.position, at), normal};
+    probe.normal = unit_or(normal, face.normal[0]);
+    return probe;
+  }
+
+  /// As many texels as one batch of probes holds.
+  void fill_group(std::span<const Texel> texels, BlockReport& report) const {
+    std::array<Probe, kProbeBatch> probes;
+    std::array<Found, kProbeBatch> found;
+    const std::size_t count = texels.size() * samples_;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Texel& texel = texels[i / samples_];
+      probes[i] = probe_at(scene_.low[texel.face], place(texel, i % samples_));
+    }
+    scene_.target.find(std::span(probes.data(), count), scene_.options.method, bound_, std::span(found.data(), count));
+    for (std::size_t t = 0; t < texels.size(); ++t) {
+      Sums sums;
+      for (std::size_t s = 0; s < samples_; ++s) {
+        const std::size_t i = t * samples_ + s;
+        add(texels[t], s, probes[i], found[i], sums, report);
+      }
+      write(texels[t], sums, report);
+    }
+  }
+
+  void add(const Texel& texel, std::size_t sample, const Probe& probe, const Found& found, Sums& sums,
+           BlockReport& report) const {
+    const float distance = std::abs(found.place.distance);
+    if (distance > report.worst) {
+      report.worst = distance;
+      report.worst_texel = texel;
+    }
+    if (!found.hit) ++report.misses;
+    const Vec3 normal = scene_.surface.normal(found.place);
+    sums.normal += normal;
+    if (!maps_.displacement.empty()) sums.displacement += displacement(probe, found);
+    if (!maps_.colors.empty()) {
+      const float footprint = scene_.low[texel.face].footprint / static_cast<float>(side_);
+      sums.color += scene_.surface.color(found.place, footprint);
+    }
+    if (!maps_.occlusion.empty()) sums.open += open_share(texel, sample, found.place, normal);
+    if (!maps_.positions.empty()) sums.position += DVec3(scene_.surface.position(found.place));
+  }
+
+  float displacement(const Probe& probe, const Found& found) const {
+    if (found.hit) return found.place.distance * unit_length_;
+    const Vec3 there = scene_.frame.inside(scene_.surface.position(found.place));
+    return glm::dot(there - probe.point, probe.normal) * unit_length_;
+  }
+
+  float open_share(const Texel& texel, std::size_t sample, const FacePoint& at, const Vec3& normal) const {
+    const std::size_t rays =
+        std::max<std::size_t>(static_cast<std::size_t>(scene_.options.occlusion_rays) / samples_, 1);
+    const Vec3 origin = scene_.frame.inside(scene_.surface.position(at)) + kOcclusionOffset * normal;
+    Random seeds(scene_.options.seed);
+    const Hemisphere sky(normal, Random(seeds.next() ^ (texel.index * 16 + sample)));
+    std::array<Vec3, kProbeBatch> directions;
+    std::size_t open = 0;
+    for (std::size_t begin = 0; begin < rays; begin += kProbeBatch) {
+      const std::size_t size = std::min(kProbeBatch, rays - begin);
+      for (std::size_t i = 0; i < size; ++i)
+        directions[i] = sky.direction(begin + i, rays);
+      open += scene_.target.count_open(origin, std::span(directions.data(), size), occlusion_bound_);
+    }
+    return static_cast<float>(open) / static_cast<float>(rays);
+  }
+
+  void write(const Texel& texel, const Sums& sums, BlockReport& report) const {
+    const float share = 1.0f / static_cast<float>(samples_);
+    const Vec3 normal = unit_or(sums.normal, Vec3(0, 0, 1));
+    if (!maps_.object_normals.empty()) store(maps_.object_normals, texel, normal);
+    if (!maps_.tangent_normals.empty()) {
+      const LowFace& face = scene_.low[texel.face];
+      const Barycentric at =
+          scene_.texels.at(texel.face, static_cast<float>(texel.x) + 0.5f, static_cast<float>(texel.y) + 0.5f);
+      store(maps_.tangent_normals, texel,
+            into_frame(interpolated_frame(face.tangent, face.normal, at.u, at.v), normal));
+    }
+    if (!maps_.colors.empty()) store(maps_.colors, texel, sums.color * share);
+    if (!maps_.occlusion.empty()) maps_.occlusion.values[texel.index] = sums.open * share;
+    if (!maps_.positions.empty()) store(maps_.positions, texel, Vec3(sums.position * double(share)));
+    if (maps_.displacement.empty()) return;
+    const float displacement = sums.displacement * share;
+    maps_.displacement.values[texel.index] = displacement;
+    report.low = std::min(report.low, displacement);
+    report.high = std::max(report.high, displacement);
+  }
+
+  template <class Vector>
+  static void store(FloatImage& image, const Texel& texel, const Vector& value) {
+    float* const pixel = image.pixel(texel.x, texel.y);
+    for (int c = 0; c < Vector::length(); ++c)
+      pixel[c] = value[c];
+  }
+
+  const BakeScene& scene_;
+  BakedMaps& maps_;
+  std::size_t side_, samples_;
+  float bound_ = 0, occlusion_bound_ = 0;
+  float unit_length_ = 1;
+};
+
+void sum_up(const std::vector<BlockReport>& blocks, const BakeScene& scene, BakeReport& report) {
+  float worst = -1.0f;
+  for (const BlockReport& block : blocks) {
+    report.texels += block.texels;
+    report.misses += block.misses;
+    report.displacement_low = std::min<double>(report.displacement_low, block.low);
+    report.displacement_high = std::max<double>(report.displacement_high, block.high);
+    if (!(block.worst > worst)) continue;
+    worst = block.worst;
+    report.worst_distance = static_cast<double>(worst) / scene.frame.scale;
+    report.worst_x = block.worst_texel.x;
+    report.worst_y = block.worst_texel.y;
+    report.worst_face = block.worst_texel.face;
+  }
+  report.samples = report.texels * static_cast<std::size_t>(scene.options.samples);
+  if (scene.options.method == BakeMethod::kClosest) report.misses = 0;
+}
+
+}  // namespace
+
+Result<void> fill_texels(const BakeScene& scene, BakedMaps& maps) {
+  const Filler filler(scene, maps);
+  const int across = (scene.texels.size_px + kBlock - 1) / kBlock;
+  std::vector<BlockReport> blocks(static_cast<std::size_t>(across) * static_cast<std::size_t>(across));
+  const std::size_t step = (blocks.size() + kSteps - 1) / kSteps;
+  for (std::size_t first = 0; first < blocks.size(); first += step) {
+    if (!report(scene.options.progress, "baking", static_cast<double>(first) / static_cast<double>(blocks.size())))
+      return fail(ErrorCode::kCancelled, "baking was stopped");
+    parallel_for(std::min(step, blocks.size() - first), kBlocksATask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = first + begin; i < first + end; ++i)
+        blocks[i] = filler.fill_block(static_cast<int>(i) % across, static_cast<int>(i) / across);
+    });
+  }
+  sum_up(blocks, scene, maps.report);
+  return {};
+}
+
+}  // namespace limn::bake_detail
