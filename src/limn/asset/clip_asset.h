@@ -14,6 +14,9 @@ namespace limn {
 struct SilhouetteLevel {
   Mesh mesh;        ///< positions and faces only, welded; the search structure is built from, or read for, exactly this
   float error = 0;  ///< how far it lies from the original at most, in the model's units; 0 for the original itself
+  /// The search tree, as the leaf of each edge of build_topology(mesh) (silhouette/search/leaf_partition.h): the
+  /// clusters that SilhouetteExtractor takes are partition_clusters() of it. Empty: not made yet.
+  std::vector<std::uint32_t> leaf_of_edge;
 };
 
 /// What the renderer reads besides the hull's own material, in texture space of the hull's uvs.

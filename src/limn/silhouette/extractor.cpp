@@ -32,10 +32,12 @@ bool is_dense(const SearchTree& tree, const QuantizedFrame& frame) {
 }  // namespace
 
 SilhouetteExtractor::SilhouetteExtractor(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes,
-                                         SearchMethod method)
+                                         SearchMethod method, std::span<const LeafCluster> leaves)
     : method_(method) {
   const QuantizedFrame frame = quantized_frame(mesh, planes);
-  if (method != SearchMethod::kBrute) tree_ = SearchTree(leaf_clusters(mesh, topology, planes), planes, frame);
+  if (method != SearchMethod::kBrute && !leaves.empty()) tree_ = SearchTree(leaves, planes, frame);
+  if (method != SearchMethod::kBrute && leaves.empty())
+    tree_ = SearchTree(leaf_clusters(mesh, topology, planes), planes, frame);
   if (method == SearchMethod::kBrute || method == SearchMethod::kAuto)
     blocks_ = EdgeBlocks(block_clusters(mesh, topology), planes, frame);
   if (method == SearchMethod::kAuto && (tree_.leaf_count() < kFewLeaves || is_dense(tree_, frame))) tree_ = {};

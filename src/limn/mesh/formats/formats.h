@@ -44,6 +44,14 @@ Result<std::vector<OutputFile>> write_ply(const Mesh& mesh, const std::filesyste
 Result<std::vector<OutputFile>> write_stl(const Mesh& mesh, const std::filesystem::path& path, bool ascii);
 Result<std::vector<OutputFile>> write_off(const Mesh& mesh, const std::filesystem::path& path);
 Result<std::vector<OutputFile>> write_obj(const Mesh& mesh, const std::filesystem::path& path);
-Result<std::vector<OutputFile>> write_gltf(const Mesh& mesh, const std::filesystem::path& path, bool binary);
+
+/// What a glTF file holds beside the mesh: an extension of the whole file that readers may do without.
+struct GltfExtension {
+  std::string name;
+  std::vector<std::vector<std::byte>> views;                ///< each becomes a buffer view, one after the other
+  std::function<std::string(std::size_t first_view)> json;  ///< its object, given the number of the first of them
+};
+Result<std::vector<OutputFile>> write_gltf(const Mesh& mesh, const std::filesystem::path& path, bool binary,
+                                           const GltfExtension* extension = nullptr);
 
 }  // namespace limn::formats

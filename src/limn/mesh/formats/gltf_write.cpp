@@ -55,6 +55,7 @@ class Builder {
   explicit Builder(const Mesh& mesh) : mesh_(mesh), vertices_(one_value_per_vertex(mesh)) {}
 
   void build();
+  void add_extension(const GltfExtension& extension);
   const Json& json() const { return json_; }
   Json& json() { return json_; }
   const std::string& data() const { return data_; }
@@ -219,6 +220,17 @@ void Builder::build() {
   add_materials();
 }
 
+void Builder::add_extension(const GltfExtension& extension) {
+  const std::size_t first = json_["bufferViews"].size();
+  for (const std::vector<std::byte>& bytes : extension.views) {
+    const std::size_t begin = begin_view();
+    data_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    end_view(begin, kNone);
+  }
+  json_["extensionsUsed"] = {extension.name};
+  json_["extensions"][extension.name] = Json::parse(extension.json(first));
+}
+
 std::string dump(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
@@ -256,10 +268,12 @@ Result<void> check(const Mesh& mesh, const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<std::vector<OutputFile>> write_gltf(const Mesh& mesh, const std::filesystem::path& path, bool binary) {
+Result<std::vector<OutputFile>> write_gltf(const Mesh& mesh, const std::filesystem::path& path, bool binary,
+                                           const GltfExtension* extension) {
   if (const Result<void> checked = check(mesh, path); !checked) return tl::unexpected(checked.error());
   Builder builder(mesh);
   builder.build();
+  if (extension != nullptr) builder.add_extension(*extension);
   std::vector<OutputFile> files(1);
   files[0].path = path;
   if (!builder.data().empty()) {
