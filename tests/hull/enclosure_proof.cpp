@@ -84,7 +84,7 @@ class Proof {
     }
     total_.add(all);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    if (say || !all.objection.empty() || !all.refused.empty()) print(name, all, seconds);
+    if (say || all.strays > 0 || !all.objection.empty() || !all.refused.empty()) print(name, all, seconds);
   }
 
   const EnclosureTally& total() const { return total_; }

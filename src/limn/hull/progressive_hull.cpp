@@ -11,6 +11,7 @@
 #include "limn/hull/collapser.h"
 #include "limn/hull/part_surgery.h"
 #include "limn/hull/ring_surface.h"
+#include "limn/hull/strict_guard.h"
 #include "limn/mesh/normals.h"
 #include "limn/mesh/topology.h"
 
@@ -46,7 +47,8 @@ class Shrinker {
   Shrinker(RingSurface& surface, const HullOptions& options)
       : surface_(surface),
         options_(options),
-        collapser_(surface, steps_, certificate_, nullptr),
+        guard_(options.strict ? std::make_unique<StrictGuard>(surface) : nullptr),
+        collapser_(surface, steps_, certificate_, guard_.get()),
         surgery_(surface, steps_, certificate_),
         first_faces_(surface.live_faces()) {}
 
@@ -119,6 +121,7 @@ class Shrinker {
   const HullOptions& options_;
   std::vector<HullStep> steps_;
   Certificate certificate_;
+  std::unique_ptr<StepGuard> guard_;
   Collapser collapser_;
   PartSurgery surgery_;
   std::size_t first_faces_;
