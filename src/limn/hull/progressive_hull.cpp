@@ -21,7 +21,11 @@ namespace {
 constexpr std::size_t kSeldom = 1024;            // collapses between two reports of progress
 constexpr std::size_t kCleanFrom = 16;           // hidden parts are looked for from so many times the target on
 constexpr double kCleanStep = 0.75;              // and again when that much of what is above the target is left
-constexpr double kReaches[] = {3.0, 10.0, 1e3};  // edge lengths that a vertex may move: farther when nothing is left
+#ifdef TRY
+const double kReaches[] = {std::getenv("REACH")?std::atof(std::getenv("REACH")):10.0, 1e3};
+#else
+constexpr double kReaches[] = {10.0, 1e3};
+#endif  // edge lengths that a vertex may move: farther when nothing is left
 
 double volume_of(std::span<const Vec3> positions, std::span<const Triangle> faces) {
   Bounds box;
