@@ -8,7 +8,7 @@
 #include "limn/bake/bake.h"
 
 #include "bake_files.h"
-#include "condition.h"
+#include "gate.h"
 #include "mesh_files.h"
 #include "verb.h"
 
@@ -25,7 +25,7 @@ struct BakeFlags {
   std::vector<std::string> maps{"normal"};
   bool object_space = false;
   BakeOptions options;
-  std::vector<Condition> gates;
+  std::vector<Gate> gates;
 };
 
 /// "normal,color".
@@ -78,8 +78,8 @@ std::vector<std::string> failed_gates(const BakeFlags& flags, const BakeReport& 
   const std::array<double, 3> figures{report.miss_share(), report.worst_distance,
                                       static_cast<double>(report.overlapping_texels)};
   std::vector<std::string> failed;
-  for (const Condition& gate : flags.gates) {
-    if (gate.holds(figures[gate.figure])) failed.push_back(gate.text);
+  for (const Gate& gate : flags.gates) {
+    if (trips(gate, figures)) failed.push_back(gate.text);
   }
   return failed;
 }
@@ -185,9 +185,7 @@ Run declare_bake(OptionTable& table) {
       table.text("--fail-if", "'miss>0.1%'", flags->files.path, "exit 5 if so; miss, worst, overlap; repeatable");
   gate.repeatable = true;
   gate.set = [flags](const std::string& text) {
-    return parse_condition(text, kFigures, "miss>0.1%").map([&](const Condition& read) {
-      flags->gates.push_back(read);
-    });
+    return parse_gate(text, kFigures).map([&](const Gate& read) { flags->gates.push_back(read); });
   };
   table.begin(Group::kFiles);
   table.file("-o,--output", flags->files.path, ".glb, .gltf or .obj with its maps, or a folder for all of them")

@@ -2,6 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "limn/hull/suitability.h"
 #include "limn/mesh/validate.h"
 
 #include "mesh_files.h"
@@ -19,6 +20,14 @@ struct InfoOptions {
 
 ordered_json vector_json(const Vec3& v) {
   return ordered_json::array({v.x, v.y, v.z});
+}
+
+/// What every technique makes of the mesh.
+std::vector<Suitability> all_techniques(const Mesh& mesh, const MeshReport& report) {
+  std::vector<Suitability> all = suitability(report);
+  for (Suitability& one : solid_suitability(mesh))
+    all.push_back(std::move(one));
+  return all;
 }
 
 ordered_json report_json(const MeshReport& report) {
@@ -55,7 +64,7 @@ ordered_json info_json(const InfoOptions& options, const LoadedMesh& loaded, con
   json.update(report_json(report));
   json["notes"] = loaded.notes;
   json["techniques"] = ordered_json::array();
-  for (const Suitability& one : suitability(report)) {
+  for (const Suitability& one : all_techniques(loaded.mesh, report)) {
     json["techniques"].push_back({{"technique", one.technique}, {"can_run", one.can_run}, {"reasons", one.reasons}});
   }
   if (options.input.repair) json["repairs"] = loaded.repairs;
@@ -112,7 +121,7 @@ std::string info_text(const InfoOptions& options, const LoadedMesh& loaded, cons
     text += fmt::format("{:<13}{},{},{} to {},{},{}\n", "bounds", low.x, low.y, low.z, high.x, high.y, high.z);
   }
   text += fmt::format("{:<13}{}\n", "attributes", attributes_line(report)) + defects(report);
-  for (const Suitability& one : suitability(report)) {
+  for (const Suitability& one : all_techniques(loaded.mesh, report)) {
     std::string line = one.can_run ? "yes" : "no";
     for (std::size_t i = 0; i < one.reasons.size(); ++i)
       line += (i == 0 ? ": " : "; ") + one.reasons[i];

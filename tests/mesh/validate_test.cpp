@@ -203,34 +203,17 @@ TEST(Validate, SameReportForAnyNumberOfThreads) {
   }
 }
 
-TEST(Suitability, SolidsRunEverything) {
+TEST(Suitability, SolidsHaveSilhouettesAndRefine) {
   for (const std::string_view name : {"three holes", "soup cube", "shell with a cavity", "coordinates of 1e-30"}) {
     for (const Suitability& one : suitability(report_of(name)))
       EXPECT_TRUE(one.can_run) << name << ": " << one.technique;
   }
 }
 
-TEST(Suitability, OpenSheetsRefineButAreNoSolids) {
+TEST(Suitability, OpenSheetsHaveSilhouettesAndRefine) {
   const auto all = suitability(report_of("sheet"));
   EXPECT_TRUE(technique(all, "silhouette").can_run);
   EXPECT_TRUE(technique(all, "refine").can_run);
-  EXPECT_FALSE(technique(all, "hull").can_run);
-  EXPECT_FALSE(technique(all, "clip").can_run);
-  const std::size_t boundary = report_of("sheet").boundary_edges;
-  EXPECT_TRUE(mentions(technique(all, "hull"), std::to_string(boundary) + " boundary edges around 1 hole"));
-}
-
-TEST(Suitability, WhatRulesASolidOutIsNamedWithItsCount) {
-  const auto hull = [](std::string_view name) { return technique(suitability(report_of(name)), "hull"); };
-  EXPECT_TRUE(mentions(hull("flipped face"), "3 edges lie between faces that wind in opposite senses"));
-  EXPECT_TRUE(mentions(hull("inside out"), "the volume is -8"));
-  EXPECT_TRUE(mentions(hull("two tetrahedra sharing an edge"), "1 edge has three faces or more"));
-  EXPECT_TRUE(mentions(hull("two tetrahedra sharing a vertex"), "1 vertex joins"));
-  EXPECT_TRUE(mentions(hull("two faces back to back"), "encloses no volume"));
-  for (const std::string_view name : {"flipped face", "inside out", "two tetrahedra sharing an edge",
-                                      "two tetrahedra sharing a vertex", "two faces back to back", "Klein bottle"}) {
-    EXPECT_FALSE(hull(name).can_run) << name;
-  }
 }
 
 TEST(Suitability, NothingRunsWithoutAFaceOfSomeArea) {

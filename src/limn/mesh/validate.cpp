@@ -250,41 +250,6 @@ Suitability for_refine(const MeshReport& report) {
   return result;
 }
 
-/// What hull and clip need: a solid with an inside.
-Suitability for_solid(std::string technique, const MeshReport& report) {
-  Suitability result{std::move(technique), false, {}};
-  std::vector<std::string>& reasons = result.reasons;
-  if (usable_faces(report) == 0) {
-    reasons.push_back(no_faces(report));
-    return result;
-  }
-  if (report.boundary_edges > 0) {
-    reasons.push_back(fmt::format("the surface is open: {} around {}",
-                                  counted(report.boundary_edges, "boundary edge", "boundary edges"),
-                                  counted(report.boundary_loops, "hole", "holes")));
-  }
-  if (report.inconsistent_edges > 0) {
-    reasons.push_back(counted(report.inconsistent_edges, "edge lies", "edges lie") +
-                      " between faces that wind in opposite senses; --repair turns them where that is possible");
-  }
-  if (report.non_manifold_edges > 0) {
-    reasons.push_back(counted(report.non_manifold_edges, "edge has", "edges have") + " three faces or more");
-  }
-  if (report.non_manifold_vertices > 0) {
-    reasons.push_back(counted(report.non_manifold_vertices, "vertex joins", "vertices join") +
-                      " parts of the surface that touch nowhere else nearby");
-  }
-  if (report.closed && !(report.volume > 0)) {
-    reasons.push_back(
-        report.volume < 0
-            ? fmt::format("the volume is {:.6g}: the faces wind inwards; --repair turns them", report.volume)
-            : "the surface encloses no volume");
-  }
-  result.can_run = reasons.empty();
-  if (result.can_run) expect_of_any(report, reasons);
-  return result;
-}
-
 }  // namespace
 
 MeshReport validate(const Mesh& mesh, const Topology& topology) {
@@ -307,7 +272,7 @@ MeshReport validate(const Mesh& mesh, const Topology& topology) {
 }
 
 std::vector<Suitability> suitability(const MeshReport& report) {
-  return {for_silhouette(report), for_refine(report), for_solid("hull", report), for_solid("clip", report)};
+  return {for_silhouette(report), for_refine(report)};
 }
 
 }  // namespace limn

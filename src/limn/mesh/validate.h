@@ -43,7 +43,7 @@ struct Suitability {
 /// Counts everything above. Cost: a few linear passes. Same result for any number of threads.
 MeshReport validate(const Mesh& mesh, const Topology& topology);
 
-/// What each technique needs, held against the report.
+/// What silhouette and refine need, held against the report. For hull and clip: solid_suitability (hull/suitability.h).
 std::vector<Suitability> suitability(const MeshReport& report);
 
 }  // namespace limn
