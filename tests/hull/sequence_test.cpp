@@ -1,7 +1,10 @@
 #include "limn/hull/sequence.h"
 
 #include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
+#include <map>
+#include <set>
 
 #include "limn/mesh/shapes.h"
 
@@ -28,6 +31,8 @@ struct PlainSurface {
       faces[step.face_right] = {step.removed, step.left, step.right};
       return;
     }
+    if (step.kind == HullStep::Kind::kCut) return cut(step);
+    if (step.kind == HullStep::Kind::kVanish) return vanish(step);
     positions[step.kept] = step.after;
     if (step.kind == HullStep::Kind::kMove) return;
     for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -36,6 +41,36 @@ struct PlainSurface {
       }
     }
     alive[step.face_left] = alive[step.face_right] = false;
+  }
+
+  /// Each corner's faces by the neighbours they lie between; those from the last corner on to the next go.
+  void cut(const HullStep& step) {
+    const std::array<VertexId, 3> old{step.kept, step.removed, step.left};
+    std::vector<std::pair<std::size_t, VertexId>> given;
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::map<VertexId, std::pair<VertexId, std::size_t>> around;
+      for (std::size_t f = 0; f < faces.size(); ++f) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          if (alive[f] && faces[f][c] == old[i]) around[faces[f][(c + 1) % 3]] = {faces[f][(c + 2) % 3], 3 * f + c};
+        }
+      }
+      for (VertexId next = old[(i + 2) % 3]; next != old[(i + 1) % 3]; next = around.at(next).first)
+        given.emplace_back(around.at(next).second, step.right + static_cast<VertexId>(i));
+    }
+    for (const auto& [corner, v] : given)
+      faces[corner / 3][corner % 3] = v;
+    for (const VertexId v : old)
+      positions.push_back(positions[v]);
+    faces.push_back({step.kept, step.left, step.removed});
+    faces.push_back({step.right, step.right + 1, step.right + 2});
+    alive.resize(faces.size(), true);
+  }
+
+  void vanish(const HullStep& step) {
+    const std::set<VertexId> part{step.kept, step.removed, step.left, step.right};
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (part.contains(faces[f][0])) alive[f] = false;
+    }
   }
 };
 
@@ -77,6 +112,16 @@ TEST(HullSequence, EveryMemberIsWhatItsStepsMake) {
   }
 }
 
+TEST(HullSequence, HoldsStepsOfEveryKind) {
+  const HullSequence sequence = some_sequence();
+  std::map<HullStep::Kind, int> counts;
+  for (const HullStep& step : sequence.outer_steps())
+    ++counts[step.kind];
+  for (const HullStep& step : sequence.inner_steps())
+    ++counts[step.kind];
+  EXPECT_EQ(counts.size(), 5u);
+}
+
 TEST(HullSequence, ACursorComesBackToTheSameBits) {
   const HullSequence sequence = some_sequence();
   HullCursor there(sequence);
@@ -89,12 +134,18 @@ TEST(HullSequence, ACursorComesBackToTheSameBits) {
     HullCursor straight(sequence);
     straight.go_to(level);
     EXPECT_EQ(there.level(), level);
-    EXPECT_TRUE(std::equal(there.positions().begin(), there.positions().end(), straight.positions().begin()));
-    EXPECT_TRUE(std::equal(there.faces().begin(), there.faces().end(), straight.faces().begin()));
+    for (FaceId face = 0; face < straight.faces().size(); ++face) {
+      ASSERT_EQ(there.is_alive(face), straight.is_alive(face));
+      if (!straight.is_alive(face)) continue;
+      ASSERT_EQ(there.faces()[face], straight.faces()[face]);
+      for (const VertexId v : straight.faces()[face])
+        ASSERT_EQ(there.positions()[v], straight.positions()[v]);
+    }
   }
   there.go_to(0);
-  EXPECT_TRUE(std::equal(there.faces().begin(), there.faces().end(), sequence.shell().faces.begin()));
-  EXPECT_TRUE(std::equal(there.positions().begin(), there.positions().end(), sequence.shell().positions.begin()));
+  EXPECT_TRUE(std::equal(sequence.shell().faces.begin(), sequence.shell().faces.end(), there.faces().begin()));
+  EXPECT_TRUE(
+      std::equal(sequence.shell().positions.begin(), sequence.shell().positions.end(), there.positions().begin()));
 }
 
 TEST(HullSequence, MembersAreClosedManifoldMeshes) {
@@ -118,14 +169,14 @@ TEST(HullSequence, FindsTheNearestLevelOfSoManyFaces) {
   const HullSequence sequence = some_sequence();
   for (const std::size_t faces : {0u, 60u, 61u, 99u, 100u, 333u, 600u, 1000000u}) {
     const int outer = sequence.outer_level(faces), inner = sequence.inner_level(faces);
-    EXPECT_TRUE(sequence.faces_at(outer) <= faces || outer == sequence.outermost());
-    EXPECT_TRUE(sequence.faces_at(inner) <= faces || inner == sequence.innermost());
-    if (outer > 0) {
-      EXPECT_GT(sequence.faces_at(outer - 1), faces);
-    }
-    if (inner < 0) {
-      EXPECT_GT(sequence.faces_at(inner + 1), faces);
-    }
+    EXPECT_TRUE(sequence.faces_at(outer) <= faces ||
+                sequence.faces_at(outer) <= sequence.faces_at(sequence.outermost()));
+    EXPECT_TRUE(sequence.faces_at(inner) <= faces ||
+                sequence.faces_at(inner) <= sequence.faces_at(sequence.innermost()));
+    for (int level = 0; level < outer; ++level)
+      EXPECT_GT(sequence.faces_at(level), std::max(faces, sequence.faces_at(outer)));
+    for (int level = 0; level > inner; --level)
+      EXPECT_GT(sequence.faces_at(level), std::max(faces, sequence.faces_at(inner)));
   }
 }
 
@@ -138,6 +189,10 @@ TEST(HullSequence, HeirsAreTheVerticesThatCollapsesKept) {
   for (int level = 1; level <= sequence.outermost(); ++level) {
     const HullStep& step = sequence.outer_steps()[static_cast<std::size_t>(level) - 1];
     if (step.kind == HullStep::Kind::kCollapse) std::replace(heirs.begin(), heirs.end(), step.removed, step.kept);
+    if (step.kind == HullStep::Kind::kVanish) {
+      for (const VertexId v : {step.kept, step.removed, step.left, step.right})
+        std::replace(heirs.begin(), heirs.end(), v, kInvalidId);
+    }
     if (level % 20 == 0 || level == sequence.outermost()) {
       EXPECT_EQ(sequence.heirs_at(level), heirs);
     }
@@ -195,14 +250,14 @@ TEST(StepReplay, KeepsAwkwardShellsManifold) {
     SCOPED_TRACE(entry.name);
     EXPECT_TRUE(limn::is_closed_manifold(shell->positions.size(), shell->faces));
     StepReplay replay(shell->positions, shell->faces);
-    std::vector<CornerChange> changes;
+    StepChanges changes;
     std::size_t checks = 0;
     for (const HullStep& step : random_steps(*shell, 4, 9)) {
       replay.apply(step, changes);
       if (++checks % 8 != 0) continue;
       Mesh mesh;
-      std::vector<VertexId> number(shell->positions.size(), kInvalidId);
-      for (FaceId face = 0; face < shell->faces.size(); ++face) {
+      std::vector<VertexId> number(replay.positions().size(), kInvalidId);
+      for (FaceId face = 0; face < replay.faces().size(); ++face) {
         if (!replay.is_alive(face)) continue;
         Triangle t = replay.faces()[face];
         for (VertexId& v : t) {

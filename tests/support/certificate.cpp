@@ -1,0 +1,231 @@
+#include "support/certificate.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "support/exact.h"
+
+namespace limn::test {
+namespace {
+
+/// Faces by vertex, and how often each side is run along; nothing shared with limn's own bookkeeping.
+class Surface {
+ public:
+  explicit Surface(const Shell& shell) : places(shell.positions), faces(shell.faces), at(shell.positions.size()) {
+    for (FaceId f = 0; f < faces.size(); ++f)
+      enter(f);
+  }
+
+  void enter(FaceId f) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      at[faces[f][c]].insert(f);
+      ++sides[key(faces[f][c], faces[f][(c + 1) % 3])];
+    }
+  }
+  void leave(FaceId f) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      at[faces[f][c]].erase(f);
+      --sides[key(faces[f][c], faces[f][(c + 1) % 3])];
+    }
+  }
+  bool is_face(FaceId f, VertexId a, VertexId b, VertexId c) const {
+    if (f >= faces.size() || !at[faces[f][0]].contains(f)) return false;
+    const Triangle& t = faces[f];
+    return t == Triangle{a, b, c} || t == Triangle{b, c, a} || t == Triangle{c, a, b};
+  }
+  /// Each side of the face once, and once back.
+  bool is_tight(FaceId f) const {
+    const Triangle& t = faces[f];
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (count(t[c], t[(c + 1) % 3]) != 1 || count(t[(c + 1) % 3], t[c]) != 1) return false;
+    }
+    return true;
+  }
+  int side_of(FaceId f, const Vec3& point) const {
+    const Triangle& t = faces[f];
+    return exact_side(DVec3(places[t[0]]), DVec3(places[t[1]]), DVec3(places[t[2]]), DVec3(point));
+  }
+
+  std::vector<Vec3> places;
+  std::vector<Triangle> faces;
+  std::vector<std::set<FaceId>> at;
+
+ private:
+  static std::uint64_t key(VertexId a, VertexId b) { return std::uint64_t{a} << 32 | b; }
+  int count(VertexId a, VertexId b) const {
+    const auto found = sides.find(key(a, b));
+    return found == sides.end() ? 0 : found->second;
+  }
+  std::unordered_map<std::uint64_t, int> sides;
+};
+
+class Checker {
+ public:
+  Checker(const Shell& shell, bool inwards) : surface_(shell), outwards_(inwards ? -1 : 1) {}
+
+  CertificateCheck run(std::span<const HullStep> steps) {
+    for (FaceId f = 0; f < surface_.faces.size(); ++f) {
+      if (!surface_.is_tight(f)) return {"the shell is not closed", 0, 0};
+    }
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const std::string objection = take(steps[i]);
+      if (objection.empty()) continue;
+      check_.objection = "step " + std::to_string(i) + ": " + objection;
+      break;
+    }
+    return check_;
+  }
+
+ private:
+  std::string take(const HullStep& step) {
+    const std::size_t count = surface_.places.size();
+    if (step.kept >= count || surface_.at[step.kept].empty()) return "no such vertex";
+    if (step.kind == HullStep::Kind::kMove) return replace(step, std::set<FaceId>(surface_.at[step.kept]));
+    if (step.kind == HullStep::Kind::kCut) return cut(step);
+    if (step.removed >= count || step.left >= count || step.right >= count) return "no such edge";
+    if (!surface_.is_face(step.face_left, step.kept, step.removed, step.left) ||
+        !surface_.is_face(step.face_right, step.removed, step.kept, step.right))
+      return "no such faces";
+    if (step.kind == HullStep::Kind::kFlip) return flip(step);
+    if (step.kind == HullStep::Kind::kVanish) return vanish(step);
+    std::set<FaceId> around = surface_.at[step.kept];
+    around.insert(surface_.at[step.removed].begin(), surface_.at[step.removed].end());
+    return replace(step, around);
+  }
+
+  bool proves(int side) {
+    if (side * outwards_ < 0) return false;
+    ++check_.proved;
+    check_.touching += side == 0;
+    return true;
+  }
+
+  /// The faces around one or two vertices become a cone from the new place over what borders them.
+  std::string replace(const HullStep& step, const std::set<FaceId>& around) {
+    for (const FaceId f : around) {
+      if (!proves(surface_.side_of(f, step.after)))
+        return "face " + std::to_string(f) + " sees its new vertex behind it";
+    }
+    for (const FaceId f : around)
+      surface_.leave(f);
+    surface_.places[step.kept] = step.after;
+    std::vector<FaceId> left;
+    for (const FaceId f : around) {
+      if (step.kind == HullStep::Kind::kCollapse && (f == step.face_left || f == step.face_right)) continue;
+      for (VertexId& v : surface_.faces[f]) {
+        if (step.kind == HullStep::Kind::kCollapse && v == step.removed) v = step.kept;
+      }
+      surface_.enter(f);
+      left.push_back(f);
+    }
+    return tightness(left);
+  }
+
+  std::string flip(const HullStep& step) {
+    if (!proves(surface_.side_of(step.face_left, surface_.places[step.right]))) return "the flip goes the wrong way";
+    surface_.leave(step.face_left);
+    surface_.leave(step.face_right);
+    surface_.faces[step.face_left] = {step.kept, step.right, step.left};
+    surface_.faces[step.face_right] = {step.removed, step.left, step.right};
+    surface_.enter(step.face_left);
+    surface_.enter(step.face_right);
+    return tightness({step.face_left, step.face_right});
+  }
+
+  /// Two faces back to back come in, which change no winding number. Every side must have its partner afterwards: which
+  /// faces went to the copies then makes no difference to any.
+  std::string cut(const HullStep& step) {
+    const std::array<VertexId, 3> old{step.kept, step.removed, step.left};
+    const auto count = static_cast<VertexId>(surface_.places.size());
+    for (const VertexId v : old) {
+      if (v >= count || surface_.at[v].empty()) return "no such vertex";
+    }
+    if (step.right != count || step.face_left != surface_.faces.size() || step.face_right != step.face_left + 1)
+      return "new ids do not continue the others";
+    std::vector<std::pair<FaceId, Triangle>> renamed;
+    for (std::size_t i = 0; i < 3; ++i) {
+      VertexId next = old[(i + 2) % 3];
+      for (std::size_t turns = surface_.at[old[i]].size(); next != old[(i + 1) % 3]; --turns) {
+        const FaceId f = face_from(old[i], next);
+        if (f == kInvalidId || turns == 0) return "no such cut";
+        const auto known =
+            std::find_if(renamed.begin(), renamed.end(), [&](const auto& one) { return one.first == f; });
+        if (known == renamed.end()) renamed.emplace_back(f, surface_.faces[f]);
+        Triangle& t = known == renamed.end() ? renamed.back().second : known->second;
+        const Triangle& before = surface_.faces[f];
+        for (std::size_t c = 0; c < 3; ++c) {
+          if (before[c] != old[i]) continue;
+          next = before[(c + 2) % 3];
+          t[c] = step.right + static_cast<VertexId>(i);
+        }
+      }
+    }
+    std::vector<FaceId> touched;
+    for (const auto& [f, t] : renamed)
+      surface_.leave(f);
+    for (const VertexId v : old)
+      surface_.places.push_back(surface_.places[v]);
+    surface_.at.resize(surface_.places.size());
+    surface_.faces.push_back({step.kept, step.left, step.removed});
+    surface_.faces.push_back({step.right, step.right + 1, step.right + 2});
+    for (const auto& [f, t] : renamed) {
+      surface_.faces[f] = t;
+      surface_.enter(f);
+      touched.push_back(f);
+    }
+    for (const FaceId f : {step.face_left, step.face_right}) {
+      surface_.enter(f);
+      touched.push_back(f);
+    }
+    for (const VertexId v : old)
+      touched.insert(touched.end(), surface_.at[v].begin(), surface_.at[v].end());
+    return tightness(touched);
+  }
+
+  /// The face in which a side runs from a to b.
+  FaceId face_from(VertexId a, VertexId b) const {
+    for (const FaceId f : surface_.at[a]) {
+      const Triangle& t = surface_.faces[f];
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (t[c] == a && t[(c + 1) % 3] == b) return f;
+      }
+    }
+    return kInvalidId;
+  }
+
+  /// A tetrahedron wound inwards took 1 from the winding number inside it.
+  std::string vanish(const HullStep& step) {
+    if (!proves(surface_.side_of(step.face_left, surface_.places[step.right]))) return "the part winds outwards";
+    std::set<FaceId> part;
+    for (const VertexId v : {step.kept, step.removed, step.left, step.right})
+      part.insert(surface_.at[v].begin(), surface_.at[v].end());
+    if (part.size() != 4) return "the part is no tetrahedron";
+    for (const FaceId f : part)
+      surface_.leave(f);
+    return {};
+  }
+
+  std::string tightness(const std::vector<FaceId>& faces) const {
+    for (const FaceId f : faces) {
+      if (!surface_.is_tight(f)) return "face " + std::to_string(f) + " shares a side with none or with several";
+    }
+    return {};
+  }
+
+  Surface surface_;
+  int outwards_;
+  CertificateCheck check_;
+};
+
+}  // namespace
+
+CertificateCheck check_certificate(const Shell& shell, std::span<const HullStep> steps, bool inwards) {
+  return Checker(shell, inwards).run(steps);
+}
+
+}  // namespace limn::test
