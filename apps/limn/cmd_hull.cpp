@@ -101,8 +101,8 @@ Result<Outcome> make_hull(Session& session, const HullFlags& flags) {
   const Result<LoadedMesh> loaded = load_with_faces(session, flags.input);
   if (!loaded) return tl::unexpected(loaded.error());
   Stopwatch stopwatch;
-  Result<Hull> hull = build(session, flags, loaded->mesh, flags.inner ? HullSide::kInner : HullSide::kOuter,
-                            !flags.sequence.empty());
+  Result<Hull> hull =
+      build(session, flags, loaded->mesh, flags.inner ? HullSide::kInner : HullSide::kOuter, !flags.sequence.empty());
   if (!hull) return tl::unexpected(about(hull.error(), flags.input.path));
   Outcome outcome;
   outcome.time_ms = stopwatch.lap_ms();
@@ -156,8 +156,12 @@ Result<bool> is_sequence(const std::string& path) {
 }
 
 ordered_json certificate_json(const HullReport& report) {
-  return {{"proved", report.certified},     {"refused", report.refused}, {"collapses", report.collapses},
-          {"moves", report.moves},          {"flips", report.flips},     {"rescued", report.rescued},
+  return {{"proved", report.certified},
+          {"refused", report.refused},
+          {"collapses", report.collapses},
+          {"moves", report.moves},
+          {"flips", report.flips},
+          {"rescued", report.rescued},
           {"worst_margin", report.worst_margin}};
 }
 
@@ -193,13 +197,14 @@ std::string summary(const HullFlags& flags, const Outcome& outcome) {
           ? ""
           : fmt::format(", {} (the model {})", counted(outcome.intersections, "self-intersecting pair"),
                         outcome.intersections_before);
-  return fmt::format("{}: {} to {}{}, volume {:.4f} of the model's{}{}, {:.0f} ms",
-                     flags.output.path.empty() ? flags.sequence : flags.output.path,
-                     counted(outcome.faces_before, "triangle"), counted(outcome.mesh.faces.size(), "triangle"),
-                     outcome.reached(static_cast<std::size_t>(flags.faces)) ? "" : ", as few as could be reached",
-                     outcome.volume_ratio(),
-                     outcome.report ? fmt::format(", {} proved", counted(outcome.report->certified, "orientation")) : "",
-                     crossing, outcome.time_ms);
+  return fmt::format(
+      "{}: {} to {}{}, volume {:.4f} of the model's{}{}, {:.0f} ms",
+      flags.output.path.empty() ? flags.sequence : flags.output.path, counted(outcome.faces_before, "triangle"),
+      counted(outcome.mesh.faces.size(), "triangle"),
+      outcome.reached(static_cast<std::size_t>(flags.faces)) ? "" : ", as few as could be reached",
+      outcome.volume_ratio(),
+      outcome.report ? fmt::format(", {} proved", counted(outcome.report->certified, "orientation")) : "", crossing,
+      outcome.time_ms);
 }
 
 std::vector<std::string> failed_gates(const HullFlags& flags, const Outcome& outcome) {
@@ -268,7 +273,8 @@ Verb hull_verb() {
               "MODEL -o FILE [--faces N] [--inner] [--strict] [--sequence FILE] [options]",
               true,
               {{{"limn hull dense.ply -o hull.ply --faces 300", "every point of the mesh is inside"},
-                {"limn hull dense.ply --sequence knot.hulls --faces 200 && limn hull knot.hulls -o inner.ply --inner --faces 1000",
+                {"limn hull dense.ply --sequence knot.hulls --faces 200 && limn hull knot.hulls -o inner.ply --inner "
+                 "--faces 1000",
                  "all face counts in one file, and one of them out of it"},
                 {"limn hull dense.ply -o hull.glb --faces 500 --strict --json --fail-if 'volume>2'",
                  "without self-intersections, with the figures for a script"}}},

@@ -45,6 +45,7 @@ Verb demo_verb();
 Verb info_verb();
 Verb make_verb();
 Verb refine_verb();
+Verb hull_verb();
 Verb clip_verb();
 Verb render_verb();
 Verb silhouette_verb();

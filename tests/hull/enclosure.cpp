@@ -171,6 +171,10 @@ EnclosureTally prove(const Mesh& mesh, const EnclosureOptions& options, HullSide
   const Surface shell(hull->shell.positions, hull->shell.faces), reached(hull->mesh.positions, hull->mesh.faces);
   const Surface &inner = inwards ? reached : shell, &outer = inwards ? shell : reached;
   look_at_points(inner, outer, options.samples, seed, tally);
+  if (inwards) {
+    for (const Vec3& p : inner.positions)
+      tally.strays += !outer.winding.holds(DVec3(p));
+  }
   look_elsewhere(inner, outer, options.elsewhere, seed, tally);
   tally.objection = objection_to_sequence(*hull, inwards, tally);
   if (options.strict && self_intersections(shell.positions, shell.faces).empty())
@@ -193,6 +197,7 @@ void EnclosureTally::add(const EnclosureTally& other) {
   on_surface += other.on_surface;
   outside += other.outside;
   nothing_inside += other.nothing_inside;
+  strays += other.strays;
   fewer += other.fewer;
   steps += other.steps;
   proved += other.proved;

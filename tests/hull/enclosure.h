@@ -22,7 +22,8 @@ struct EnclosureTally {
   std::size_t outside = 0;     ///< must be 0
   /// Outside, but where the surface itself winds backwards, so that nothing inside is near; not counted in `outside`.
   std::size_t nothing_inside = 0;
-  std::size_t fewer = 0;  ///< of elsewhere: wound fewer times than before; must be 0
+  std::size_t strays = 0;  ///< vertices of inner hulls among those
+  std::size_t fewer = 0;   ///< of elsewhere: wound fewer times than before; must be 0
   std::size_t steps = 0, proved = 0;
   std::size_t crossings = 0;  ///< pairs of faces that intersect in hulls whose shell had none
   std::string refused;        ///< why no shell was made

@@ -1,5 +1,6 @@
 #include "hull/random_solids.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -14,7 +15,8 @@ namespace {
 
 /// Positions and faces alone, each position once.
 Mesh shape(Shape kind, std::size_t faces, std::uint64_t seed) {
-  const Result<Mesh> made = make_shape(kind, {faces, seed});
+  const std::size_t least = kind == Shape::kHoles3 ? 400 : kind == Shape::kKnot ? 144 : 80;
+  const Result<Mesh> made = make_shape(kind, {std::max<std::size_t>(faces, least), seed});
   if (!made) std::abort();
   const Topology topology = build_topology(*made);
   std::vector<VertexId> number(made->positions.size(), kInvalidId);

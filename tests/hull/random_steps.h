@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "limn/base/random.h"
@@ -30,10 +31,18 @@ inline std::optional<HullStep> some_cut(StepReplay& replay, std::uint32_t corner
   return std::nullopt;
 }
 
+/// Steps as those of an inner hull are given.
+inline std::vector<HullStep> turned_steps(std::vector<HullStep> steps) {
+  for (HullStep& step : steps)
+    step = turned_step(step);
+  return steps;
+}
+
 /// Steps of all kinds that fit the shell one after another, most of them collapses; they move the surface anywhere.
-inline std::vector<HullStep> random_steps(const Shell& shell, std::size_t faces_left, std::uint64_t seed) {
+inline std::vector<HullStep> random_steps(const Shell& shell, std::size_t faces_left, std::uint64_t seed,
+                                          bool inwards = false) {
   Random random(seed);
-  StepReplay replay(shell.positions, shell.faces);
+  StepReplay replay(shell.positions, inwards ? turned_faces(shell.faces) : shell.faces);
   StepChanges changes;
   std::vector<HullStep> steps;
   for (std::size_t tries = 0; replay.face_count() > faces_left && tries < 60 * shell.faces.size(); ++tries) {
@@ -42,16 +51,16 @@ inline std::vector<HullStep> random_steps(const Shell& shell, std::size_t faces_
     const Vec3 after = replay.positions()[v] + 0.01f * random.direction();
     const std::uint64_t kind = random.below(32);
     auto step = replay.step_at(HullStep::Kind::kCollapse, corner, after);
-    if (kind < 4) step = replay.move_of(v, after);
+    if (kind < 4) step = replay.step_of(HullStep::Kind::kMove, v, after);
     if (kind >= 4 && kind < 8) step = replay.step_at(HullStep::Kind::kFlip, corner, after);
     if (kind == 8) step = some_cut(replay, corner);
     if (step && kind == 9 && replay.face_count() > 4 && is_tetrahedron(replay, *step))
-      step = replay.step_at(HullStep::Kind::kVanish, corner, after);
+      step = replay.step_of(random.below(2) == 0 ? HullStep::Kind::kFill : HullStep::Kind::kDrop, v, after);
     if (!step || !replay.objection(*step).empty()) continue;
     replay.apply(*step, changes);
     steps.push_back(*step);
   }
-  return steps;
+  return inwards ? turned_steps(std::move(steps)) : steps;
 }
 
 }  // namespace limn::test

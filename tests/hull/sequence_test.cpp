@@ -21,9 +21,14 @@ struct PlainSurface {
   std::vector<Vec3> positions;
   std::vector<Triangle> faces;
   std::vector<bool> alive;
+  bool turned;
 
-  explicit PlainSurface(const Shell& shell)
-      : positions(shell.positions), faces(shell.faces), alive(shell.faces.size(), true) {}
+  /// \param inwards  turned inside out, as inner hulls are made
+  explicit PlainSurface(const Shell& shell, bool inwards = false)
+      : positions(shell.positions),
+        faces(inwards ? turned_faces(shell.faces) : shell.faces),
+        alive(shell.faces.size(), true),
+        turned(inwards) {}
 
   void apply(const HullStep& step) {
     if (step.kind == HullStep::Kind::kFlip) {
@@ -32,7 +37,7 @@ struct PlainSurface {
       return;
     }
     if (step.kind == HullStep::Kind::kCut) return cut(step);
-    if (step.kind == HullStep::Kind::kVanish) return vanish(step);
+    if (step.kind == HullStep::Kind::kFill || step.kind == HullStep::Kind::kDrop) return remove_part(step.kept);
     positions[step.kept] = step.after;
     if (step.kind == HullStep::Kind::kMove) return;
     for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -66,8 +71,21 @@ struct PlainSurface {
     alive.resize(faces.size(), true);
   }
 
-  void vanish(const HullStep& step) {
-    const std::set<VertexId> part{step.kept, step.removed, step.left, step.right};
+  std::set<VertexId> part_of(VertexId vertex) const {
+    std::set<VertexId> part{vertex};
+    for (std::size_t before = 0; before != part.size();) {
+      before = part.size();
+      for (std::size_t f = 0; f < faces.size(); ++f) {
+        const Triangle& t = faces[f];
+        if (alive[f] && (part.contains(t[0]) || part.contains(t[1]) || part.contains(t[2])))
+          part.insert(t.begin(), t.end());
+      }
+    }
+    return part;
+  }
+
+  void remove_part(VertexId vertex) {
+    const std::set<VertexId> part = part_of(vertex);
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (part.contains(faces[f][0])) alive[f] = false;
     }
@@ -80,7 +98,9 @@ void expect_equal(const HullCursor& cursor, const PlainSurface& plain) {
     ASSERT_EQ(cursor.is_alive(face), plain.alive[face]);
     if (!plain.alive[face]) continue;
     ++live;
-    ASSERT_EQ(cursor.faces()[face], plain.faces[face]);
+    Triangle expected = plain.faces[face];
+    if (plain.turned) std::swap(expected[1], expected[2]);
+    ASSERT_EQ(cursor.faces()[face], expected);
     for (const VertexId v : plain.faces[face])
       ASSERT_EQ(cursor.positions()[v], plain.positions[v]);
   }
@@ -93,17 +113,17 @@ Shell shell_of(Shape shape, std::size_t faces) {
 
 HullSequence some_sequence() {
   const Shell shell = shell_of(Shape::kHoles3, 600);
-  return *HullSequence::make(shell, random_steps(shell, 60, 1), random_steps(shell, 100, 2));
+  return *HullSequence::make(shell, random_steps(shell, 60, 1), random_steps(shell, 100, 2, true));
 }
 
 TEST(HullSequence, EveryMemberIsWhatItsStepsMake) {
   const HullSequence sequence = some_sequence();
   EXPECT_GT(sequence.outermost(), 100);
   for (const bool outer : {true, false}) {
-    PlainSurface plain(sequence.shell());
+    PlainSurface plain(sequence.shell(), !outer);
     HullCursor cursor(sequence);
     for (const HullStep& step : outer ? sequence.outer_steps() : sequence.inner_steps()) {
-      plain.apply(step);
+      plain.apply(outer ? step : turned_step(step));
       ASSERT_TRUE(outer ? cursor.step_outwards() : cursor.step_inwards());
       expect_equal(cursor, plain);
       EXPECT_EQ(sequence.faces_at(cursor.level()), cursor.face_count());
@@ -119,7 +139,7 @@ TEST(HullSequence, HoldsStepsOfEveryKind) {
     ++counts[step.kind];
   for (const HullStep& step : sequence.inner_steps())
     ++counts[step.kind];
-  EXPECT_EQ(counts.size(), 5u);
+  EXPECT_EQ(counts.size(), 6u);
 }
 
 TEST(HullSequence, ACursorComesBackToTheSameBits) {
@@ -186,13 +206,15 @@ TEST(HullSequence, HeirsAreTheVerticesThatCollapsesKept) {
   for (VertexId v = 0; v < heirs.size(); ++v)
     heirs[v] = v;
   EXPECT_EQ(sequence.heirs_at(0), heirs);
+  PlainSurface plain(sequence.shell());
   for (int level = 1; level <= sequence.outermost(); ++level) {
     const HullStep& step = sequence.outer_steps()[static_cast<std::size_t>(level) - 1];
     if (step.kind == HullStep::Kind::kCollapse) std::replace(heirs.begin(), heirs.end(), step.removed, step.kept);
-    if (step.kind == HullStep::Kind::kVanish) {
-      for (const VertexId v : {step.kept, step.removed, step.left, step.right})
+    if (step.kind == HullStep::Kind::kFill || step.kind == HullStep::Kind::kDrop) {
+      for (const VertexId v : plain.part_of(step.kept))
         std::replace(heirs.begin(), heirs.end(), v, kInvalidId);
     }
+    plain.apply(step);
     if (level % 20 == 0 || level == sequence.outermost()) {
       EXPECT_EQ(sequence.heirs_at(level), heirs);
     }

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <map>
 #include <set>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "limn/base/bounds.h"
+
 #include "support/exact.h"
+#include "support/winding.h"
 
 namespace limn::test {
 namespace {
@@ -15,9 +20,11 @@ namespace {
 /// Faces by vertex, and how often each side is run along; nothing shared with limn's own bookkeeping.
 class Surface {
  public:
-  explicit Surface(const Shell& shell) : places(shell.positions), faces(shell.faces), at(shell.positions.size()) {
-    for (FaceId f = 0; f < faces.size(); ++f)
+  Surface(const Shell& shell, bool turned) : places(shell.positions), faces(shell.faces), at(shell.positions.size()) {
+    for (FaceId f = 0; f < faces.size(); ++f) {
+      if (turned) std::swap(faces[f][1], faces[f][2]);
       enter(f);
+    }
   }
 
   void enter(FaceId f) {
@@ -66,40 +73,55 @@ class Surface {
 
 class Checker {
  public:
-  Checker(const Shell& shell, bool inwards) : surface_(shell), outwards_(inwards ? -1 : 1) {}
+  /// An inner hull is one of the shell turned inside out: what rises there falls here.
+  Checker(const Shell& shell, bool inwards) : surface_(shell, inwards), inwards_(inwards) {}
 
   CertificateCheck run(std::span<const HullStep> steps) {
     for (FaceId f = 0; f < surface_.faces.size(); ++f) {
       if (!surface_.is_tight(f)) return {"the shell is not closed", 0, 0};
     }
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const std::string objection = take(steps[i]);
-      if (objection.empty()) continue;
-      check_.objection = "step " + std::to_string(i) + ": " + objection;
-      break;
+    for (std::size_t i = 0; i < steps.size();) {
+      if (steps[i].kind == HullStep::Kind::kDrop) {
+        const std::size_t dropped = drop(steps.subspan(i));
+        if (dropped == 0) return stopped(i, "nothing shows that what is dropped lies inside the others");
+        i += dropped;
+        continue;
+      }
+      HullStep step = steps[i];
+      if (inwards_ && (step.kind == HullStep::Kind::kCollapse || step.kind == HullStep::Kind::kFlip)) {
+        std::swap(step.left, step.right);
+        std::swap(step.face_left, step.face_right);
+      }
+      if (const std::string objection = take(step); !objection.empty()) return stopped(i, objection);
+      ++i;
     }
     return check_;
   }
 
  private:
+  CertificateCheck stopped(std::size_t step, const std::string& objection) {
+    check_.objection = "step " + std::to_string(step) + ": " + objection;
+    return check_;
+  }
+
   std::string take(const HullStep& step) {
     const std::size_t count = surface_.places.size();
     if (step.kept >= count || surface_.at[step.kept].empty()) return "no such vertex";
     if (step.kind == HullStep::Kind::kMove) return replace(step, std::set<FaceId>(surface_.at[step.kept]));
     if (step.kind == HullStep::Kind::kCut) return cut(step);
+    if (step.kind == HullStep::Kind::kFill) return fill(step);
     if (step.removed >= count || step.left >= count || step.right >= count) return "no such edge";
     if (!surface_.is_face(step.face_left, step.kept, step.removed, step.left) ||
         !surface_.is_face(step.face_right, step.removed, step.kept, step.right))
       return "no such faces";
     if (step.kind == HullStep::Kind::kFlip) return flip(step);
-    if (step.kind == HullStep::Kind::kVanish) return vanish(step);
     std::set<FaceId> around = surface_.at[step.kept];
     around.insert(surface_.at[step.removed].begin(), surface_.at[step.removed].end());
     return replace(step, around);
   }
 
   bool proves(int side) {
-    if (side * outwards_ < 0) return false;
+    if (side < 0) return false;
     ++check_.proved;
     check_.touching += side == 0;
     return true;
@@ -147,16 +169,13 @@ class Checker {
     }
     if (step.right != count || step.face_left != surface_.faces.size() || step.face_right != step.face_left + 1)
       return "new ids do not continue the others";
-    std::vector<std::pair<FaceId, Triangle>> renamed;
+    std::map<FaceId, Triangle> renamed;
     for (std::size_t i = 0; i < 3; ++i) {
       VertexId next = old[(i + 2) % 3];
       for (std::size_t turns = surface_.at[old[i]].size(); next != old[(i + 1) % 3]; --turns) {
         const FaceId f = face_from(old[i], next);
         if (f == kInvalidId || turns == 0) return "no such cut";
-        const auto known =
-            std::find_if(renamed.begin(), renamed.end(), [&](const auto& one) { return one.first == f; });
-        if (known == renamed.end()) renamed.emplace_back(f, surface_.faces[f]);
-        Triangle& t = known == renamed.end() ? renamed.back().second : known->second;
+        Triangle& t = renamed.try_emplace(f, surface_.faces[f]).first->second;
         const Triangle& before = surface_.faces[f];
         for (std::size_t c = 0; c < 3; ++c) {
           if (before[c] != old[i]) continue;
@@ -198,16 +217,104 @@ class Checker {
     return kInvalidId;
   }
 
-  /// A tetrahedron wound inwards took 1 from the winding number inside it.
-  std::string vanish(const HullStep& step) {
-    if (!proves(surface_.side_of(step.face_left, surface_.places[step.right]))) return "the part winds outwards";
+  std::set<FaceId> part_of(VertexId vertex) const {
     std::set<FaceId> part;
-    for (const VertexId v : {step.kept, step.removed, step.left, step.right})
-      part.insert(surface_.at[v].begin(), surface_.at[v].end());
-    if (part.size() != 4) return "the part is no tetrahedron";
+    std::set<VertexId> met{vertex};
+    std::vector<VertexId> open{vertex};
+    while (!open.empty()) {
+      const VertexId v = open.back();
+      open.pop_back();
+      for (const FaceId f : surface_.at[v]) {
+        part.insert(f);
+        for (const VertexId next : surface_.faces[f]) {
+          if (met.insert(next).second) open.push_back(next);
+        }
+      }
+    }
+    return part;
+  }
+
+  std::string remove(const std::set<FaceId>& part) {
     for (const FaceId f : part)
       surface_.leave(f);
     return {};
+  }
+
+  /// A part that shows the point its outer sides only is a sum of tetrahedra wound inwards: each took from the winding
+  /// numbers.
+  std::string fill(const HullStep& step) {
+    const std::set<FaceId> part = part_of(step.kept);
+    for (const FaceId f : part) {
+      if (!proves(surface_.side_of(f, step.after))) return "face " + std::to_string(f) + " of the part winds outwards";
+    }
+    return remove(part);
+  }
+
+  /// Parts may be dropped together: the fewest of the coming drops that are proved at once; 0 where none are. Nothing
+  /// of what stays comes near the box of those that go, and there it winds once at least: still inside when they have
+  /// gone. Tetrahedra that wind outwards are left out of account, since they can only add to that.
+  std::size_t drop(std::span<const HullStep> steps) {
+    std::set<FaceId> going;
+    Bounds box;
+    for (std::size_t i = 0; i < steps.size() && steps[i].kind == HullStep::Kind::kDrop; ++i) {
+      if (steps[i].kept >= surface_.places.size()) return 0;
+      for (const FaceId f : part_of(steps[i].kept)) {
+        going.insert(f);
+        for (const VertexId v : surface_.faces[f])
+          box.add(surface_.places[v]);
+      }
+      if (going.empty() || !is_hidden(going, box, surface_.places[steps[i].kept])) continue;
+      remove(going);
+      return i + 1;
+    }
+    return 0;
+  }
+
+  bool is_hidden(const std::set<FaceId>& going, const Bounds& box, const Vec3& point) {
+    std::vector<Triangle> others;
+    for (FaceId f = 0; f < surface_.faces.size(); ++f) {
+      if (!surface_.at[surface_.faces[f][0]].contains(f) || going.contains(f)) continue;
+      if (!is_clear(box, f)) {
+        if (!is_outward_tetrahedron(f)) return false;
+        continue;
+      }
+      if (!is_outward_tetrahedron(f)) others.push_back(surface_.faces[f]);
+    }
+    if (Winding(surface_.places, others).at(DVec3(point)) <= 0) return false;
+    check_.proved += others.size();
+    return true;
+  }
+
+  bool is_outward_tetrahedron(FaceId f) const {
+    const Triangle& t = surface_.faces[f];
+    for (const VertexId v : t) {
+      if (surface_.at[v].size() != 3) return false;
+    }
+    const std::set<FaceId> part = part_of(t[0]);
+    if (part.size() != 4) return false;
+    for (const FaceId other : part) {
+      for (const VertexId v : surface_.faces[other]) {
+        if (v != t[0] && v != t[1] && v != t[2]) return surface_.side_of(f, surface_.places[v]) < 0;
+      }
+    }
+    return false;
+  }
+
+  /// Apart along an axis, or with all corners on one side of the face.
+  bool is_clear(const Bounds& box, FaceId f) const {
+    Bounds face;
+    for (const VertexId v : surface_.faces[f])
+      face.add(surface_.places[v]);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (face.high[axis] < box.low[axis] || box.high[axis] < face.low[axis]) return true;
+    }
+    int sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 at((corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
+                    (corner & 4) != 0 ? box.high.z : box.low.z);
+      sum += surface_.side_of(f, at);
+    }
+    return std::abs(sum) == 8;
   }
 
   std::string tightness(const std::vector<FaceId>& faces) const {
@@ -218,7 +325,7 @@ class Checker {
   }
 
   Surface surface_;
-  int outwards_;
+  bool inwards_;
   CertificateCheck check_;
 };
 

@@ -22,6 +22,11 @@ std::size_t steps_to(std::span<const std::uint32_t> faces_after, std::size_t fac
   return std::min(static_cast<std::size_t>(found - faces_after.begin()), faces_after.size() - 1);
 }
 
+/// Where a corner of a turned face is on the face itself.
+std::uint32_t turned_corner(std::uint32_t corner) {
+  return corner % 3 == 1 ? corner + 1 : corner % 3 == 2 ? corner - 1 : corner;
+}
+
 bool all_finite(std::span<const Vec2> uvs) {
   return std::all_of(uvs.begin(), uvs.end(), [](const Vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); });
 }
@@ -29,29 +34,33 @@ bool all_finite(std::span<const Vec2> uvs) {
 }  // namespace
 
 /// Fills a way's tables by going it. Gives the first step that cannot be taken, as an error.
-Result<void> HullSequence::go(const Shell& shell, std::string_view name, Way& way) {
-  StepReplay replay(shell.positions, shell.faces);
+Result<void> HullSequence::go(const Shell& shell, bool inwards, Way& way) {
+  StepReplay replay(shell.positions, inwards ? turned_faces(shell.faces) : shell.faces);
   StepChanges changes;
   way.faces = way.fewest = {static_cast<std::uint32_t>(replay.face_count())};
   way.corner_offsets = way.killed_offsets = way.vanished_offsets = {0};
   for (std::size_t i = 0; i < way.steps.size(); ++i) {
-    const std::string_view objection = replay.objection(way.steps[i]);
+    const HullStep step = inwards ? turned_step(way.steps[i]) : way.steps[i];
+    const std::string_view objection = replay.objection(step);
     if (!objection.empty()) {
-      return fail_at(ErrorCode::kInvalidArgument, {}, fmt::format("{} step {}", name, i), std::string(objection),
-                     "give the steps of this shell, in their order");
+      return fail_at(ErrorCode::kInvalidArgument, {}, fmt::format("{} step {}", inwards ? "inner" : "outer", i),
+                     std::string(objection), "give the steps of this shell, in their order");
     }
     changes.clear();
-    replay.apply(way.steps[i], changes);
+    replay.apply(step, changes);
     for (const limn::CornerChange& change : changes.corners)
-      way.corners.push_back({change.corner, change.from, change.to});
+      way.corners.push_back({inwards ? turned_corner(change.corner) : change.corner, change.from, change.to});
     way.killed.insert(way.killed.end(), changes.killed.begin(), changes.killed.end());
     way.vanished.insert(way.vanished.end(), changes.vanished.begin(), changes.vanished.end());
     way.corner_offsets.push_back(static_cast<std::uint32_t>(way.corners.size()));
     way.killed_offsets.push_back(static_cast<std::uint32_t>(way.killed.size()));
     way.vanished_offsets.push_back(static_cast<std::uint32_t>(way.vanished.size()));
     way.faces.push_back(static_cast<std::uint32_t>(replay.face_count()));
-    way.fewest.push_back(std::min(way.fewest.back(), way.faces.back()));
-    way.cuts += way.steps[i].kind == HullStep::Kind::kCut;
+    // Parts may be dropped together, and are proved together: what lies between is no hull.
+    const bool between = step.kind == HullStep::Kind::kDrop && i + 1 < way.steps.size() &&
+                         way.steps[i + 1].kind == HullStep::Kind::kDrop;
+    way.fewest.push_back(between ? way.fewest.back() : std::min(way.fewest.back(), way.faces.back()));
+    way.cuts += step.kind == HullStep::Kind::kCut;
   }
   return {};
 }
@@ -74,8 +83,8 @@ Result<HullSequence> HullSequence::make(Shell shell, std::vector<HullStep> outer
     return fail(ErrorCode::kInvalidArgument, "a sequence needs one finite uv a vertex of its shell, or none");
   if (sequence.outer_.steps.size() > kMostSteps || sequence.inner_.steps.size() > kMostSteps)
     return fail(ErrorCode::kInvalidArgument, "too many steps for a sequence");
-  return go(sequence.shell_, "outer", sequence.outer_)
-      .and_then([&] { return go(sequence.shell_, "inner", sequence.inner_); })
+  return go(sequence.shell_, false, sequence.outer_)
+      .and_then([&] { return go(sequence.shell_, true, sequence.inner_); })
       .map([&] { return std::move(sequence); });
 }
 
@@ -163,7 +172,7 @@ bool HullCursor::step_outwards() {
   if (level_ < 0) {
     take_back(sequence_->inner_, static_cast<std::size_t>(-level_ - 1));
   } else {
-    take(sequence_->outer_, static_cast<std::size_t>(level_));
+    take(sequence_->outer_, false, static_cast<std::size_t>(level_));
   }
   ++level_;
   return true;
@@ -174,7 +183,7 @@ bool HullCursor::step_inwards() {
   if (level_ > 0) {
     take_back(sequence_->outer_, static_cast<std::size_t>(level_ - 1));
   } else {
-    take(sequence_->inner_, static_cast<std::size_t>(-level_));
+    take(sequence_->inner_, true, static_cast<std::size_t>(-level_));
   }
   --level_;
   return true;
@@ -193,7 +202,7 @@ void HullCursor::set_alive(FaceId face, bool alive) {
   live_faces_ = alive ? live_faces_ + 1 : live_faces_ - 1;
 }
 
-void HullCursor::take(const HullSequence::Way& way, std::size_t number) {
+void HullCursor::take(const HullSequence::Way& way, bool inwards, std::size_t number) {
   const HullStep& step = way.steps[number];
   for (std::uint32_t i = way.corner_offsets[number]; i < way.corner_offsets[number + 1]; ++i)
     faces_[way.corners[i].corner / 3][way.corners[i].corner % 3] = way.corners[i].to;
@@ -206,6 +215,10 @@ void HullCursor::take(const HullSequence::Way& way, std::size_t number) {
   positions_[step.right + 2] = positions_[step.left];
   faces_[step.face_left] = {step.kept, step.left, step.removed};
   faces_[step.face_right] = {step.right, step.right + 1, step.right + 2};
+  if (inwards) {
+    std::swap(faces_[step.face_left][1], faces_[step.face_left][2]);
+    std::swap(faces_[step.face_right][1], faces_[step.face_right][2]);
+  }
   set_alive(step.face_left, true);
   set_alive(step.face_right, true);
 }

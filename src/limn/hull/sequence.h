@@ -22,7 +22,7 @@ namespace limn {
 /// maker proves (progressive_hull.h).
 class HullSequence {
  public:
-  /// \param outer, inner  as build_hull() gives them with keep_steps, both in the shell's orientation; may be empty
+  /// \param outer, inner  as build_hull() gives them with keep_steps; may be empty
   /// \param uvs           one a vertex of the shell, or none
   /// Cost: linear. Same bits for any number of threads.
   /// Errors: kInvalidArgument, naming the step, where one does not fit the surface that those before it made, or where
@@ -69,7 +69,7 @@ class HullSequence {
   struct Way {
     std::vector<HullStep> steps;
     std::vector<std::uint32_t> faces{};   ///< one more than steps: faces after so many
-    std::vector<std::uint32_t> fewest{};  ///< and the fewest so far
+    std::vector<std::uint32_t> fewest{};  ///< the fewest so far, of levels that are hulls
     std::vector<std::uint32_t> corner_offsets{};
     std::vector<CornerChange> corners{};
     std::vector<std::uint32_t> killed_offsets{};
@@ -78,7 +78,7 @@ class HullSequence {
     std::vector<VertexId> vanished{};
     std::size_t cuts = 0;
   };
-  static Result<void> go(const Shell& shell, std::string_view name, Way& way);
+  static Result<void> go(const Shell& shell, bool inwards, Way& way);
 
   HullSequence() = default;
 
@@ -108,7 +108,7 @@ class HullCursor {
   bool is_alive(FaceId face) const { return alive_[face] != 0; }
 
  private:
-  void take(const HullSequence::Way& way, std::size_t number);
+  void take(const HullSequence::Way& way, bool inwards, std::size_t number);
   void take_back(const HullSequence::Way& way, std::size_t number);
   void set_alive(FaceId face, bool alive);
 

@@ -34,14 +34,19 @@ static_assert(sizeof(Header) == 40);
 
 /// In the file a step's number is its subject times the kinds there are, plus its kind's place here.
 constexpr std::array kKinds{HullStep::Kind::kCollapse, HullStep::Kind::kMove, HullStep::Kind::kFlip,
-                            HullStep::Kind::kCut, HullStep::Kind::kVanish};
+                            HullStep::Kind::kCut,      HullStep::Kind::kFill, HullStep::Kind::kDrop};
 
 std::uint64_t number_of(HullStep::Kind kind) {
   return static_cast<std::uint64_t>(std::find(kKinds.begin(), kKinds.end(), kind) - kKinds.begin());
 }
 
-bool moves_a_vertex(HullStep::Kind kind) {
-  return kind == HullStep::Kind::kCollapse || kind == HullStep::Kind::kMove;
+/// Whether the step is stored with a place: where its vertex goes, or a cavity is seen from.
+bool has_place(HullStep::Kind kind) {
+  return kind == HullStep::Kind::kCollapse || kind == HullStep::Kind::kMove || kind == HullStep::Kind::kFill;
+}
+
+bool is_of_an_edge(HullStep::Kind kind) {
+  return kind == HullStep::Kind::kCollapse || kind == HullStep::Kind::kFlip;
 }
 
 void put_number(std::vector<std::byte>& bytes, std::uint64_t value) {
@@ -82,19 +87,20 @@ std::uint64_t corner_of_edge(const StepReplay& replay, FaceId face, VertexId a) 
 }
 
 /// Steps name the corner their edge starts from, which the surface at the time tells the rest of.
-void put_steps(std::vector<std::byte>& bytes, const Shell& shell, std::span<const HullStep> steps) {
-  StepReplay replay(shell.positions, shell.faces);
+void put_steps(std::vector<std::byte>& bytes, const Shell& shell, bool inwards, std::span<const HullStep> steps) {
+  StepReplay replay(shell.positions, inwards ? turned_faces(shell.faces) : shell.faces);
   StepChanges changes;
-  for (const HullStep& step : steps) {
+  for (const HullStep& given : steps) {
+    const HullStep step = inwards ? turned_step(given) : given;
     std::uint64_t subject = step.kept;
     if (step.kind == HullStep::Kind::kCut) {
       subject = replay.corner_running(step.kept, step.removed);
-    } else if (step.kind != HullStep::Kind::kMove) {
+    } else if (is_of_an_edge(step.kind)) {
       subject = corner_of_edge(replay, step.face_left, step.kept);
     }
     put_number(bytes, kKinds.size() * subject + number_of(step.kind));
     if (step.kind == HullStep::Kind::kCut) put_number(bytes, step.left);
-    if (moves_a_vertex(step.kind)) put_raw(bytes, std::span(&step.after, 1));
+    if (has_place(step.kind)) put_raw(bytes, std::span(&step.after, 1));
     replay.apply(step, changes);
     changes.clear();
   }
@@ -153,11 +159,11 @@ std::optional<HullStep> read_step(Reader& reader, StepReplay& replay) {
   const std::optional<std::uint64_t> third = kind == HullStep::Kind::kCut ? reader.number() : 0;
   if (!third || *third >= kInvalidId) return std::nullopt;
   Vec3 after(0);
-  if (moves_a_vertex(kind) && !reader.raw(std::span(&after, 1))) return std::nullopt;
-  const std::optional<HullStep> step = kind == HullStep::Kind::kMove ? replay.move_of(subject, after)
-                                       : kind == HullStep::Kind::kCut
+  if (has_place(kind) && !reader.raw(std::span(&after, 1))) return std::nullopt;
+  const std::optional<HullStep> step = kind == HullStep::Kind::kCut
                                            ? replay.cut_at(subject, static_cast<VertexId>(*third))
-                                           : replay.step_at(kind, subject, after);
+                                       : is_of_an_edge(kind) ? replay.step_at(kind, subject, after)
+                                                             : replay.step_of(kind, subject, after);
   if (!step || !replay.objection(*step).empty()) return std::nullopt;
   return step;
 }
@@ -195,8 +201,8 @@ std::vector<std::byte> hull_sequence_bytes(const HullSequence& sequence) {
   put_raw(bytes, std::span(shell.positions));
   put_raw(bytes, sequence.uvs());
   put_faces(bytes, shell.faces);
-  put_steps(bytes, shell, sequence.outer_steps());
-  put_steps(bytes, shell, sequence.inner_steps());
+  put_steps(bytes, shell, false, sequence.outer_steps());
+  put_steps(bytes, shell, true, sequence.inner_steps());
   header.hash = hash_of_file(header, std::span(bytes).subspan(sizeof(Header)));
   std::memcpy(bytes.data(), &header, sizeof(Header));
   return bytes;
@@ -235,7 +241,7 @@ Result<HullSequence> parse_hull_sequence(std::span<const std::byte> bytes, const
 
   std::array<std::vector<HullStep>, 2> ways;
   for (std::size_t way = 0; way < 2; ++way) {
-    StepReplay replay(shell.positions, shell.faces);
+    StepReplay replay(shell.positions, way == 0 ? shell.faces : turned_faces(shell.faces));
     StepChanges changes;
     const std::uint32_t count = way == 0 ? header.outer_steps : header.inner_steps;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -246,7 +252,7 @@ Result<HullSequence> parse_hull_sequence(std::span<const std::byte> bytes, const
       }
       replay.apply(*step, changes);
       changes.clear();
-      ways[way].push_back(*step);
+      ways[way].push_back(way == 0 ? *step : turned_step(*step));
     }
   }
   if (reader.left() != 0) return unreadable({}, "the hull sequence has bytes to spare");

@@ -99,6 +99,21 @@ bool is_closed_manifold(std::size_t vertices, std::span<const Triangle> faces) {
   return true;
 }
 
+std::vector<Triangle> turned_faces(std::span<const Triangle> faces) {
+  std::vector<Triangle> turned(faces.begin(), faces.end());
+  for (Triangle& t : turned)
+    std::swap(t[1], t[2]);
+  return turned;
+}
+
+HullStep turned_step(const HullStep& step) {
+  HullStep turned = step;
+  if (step.kind != HullStep::Kind::kCollapse && step.kind != HullStep::Kind::kFlip) return turned;
+  std::swap(turned.left, turned.right);
+  std::swap(turned.face_left, turned.face_right);
+  return turned;
+}
+
 StepReplay::StepReplay(std::vector<Vec3> positions, std::vector<Triangle> faces)
     : positions_(std::move(positions)),
       faces_(std::move(faces)),
@@ -150,13 +165,13 @@ std::optional<HullStep> StepReplay::cut_at(std::uint32_t corner, VertexId third)
   return step;
 }
 
-std::optional<HullStep> StepReplay::move_of(VertexId vertex, const Vec3& after) const {
+std::optional<HullStep> StepReplay::step_of(HullStep::Kind kind, VertexId vertex, const Vec3& after) const {
   if (vertex >= positions_.size() || first_[vertex] == kInvalidId) return std::nullopt;
   HullStep step;
-  step.kind = HullStep::Kind::kMove;
+  step.kind = kind;
   step.kept = vertex;
   step.before = positions_[vertex];
-  step.after = after;
+  step.after = kind == HullStep::Kind::kDrop ? step.before : after;
   return step;
 }
 
@@ -173,10 +188,14 @@ std::string_view StepReplay::objection(const HullStep& step) {
   switch (step.kind) {
     case HullStep::Kind::kMove:
       return {};
+    case HullStep::Kind::kFill:
+    case HullStep::Kind::kDrop:
+      return faces_of_part(step.kept) == live_faces_ ? "nothing would be left" : std::string_view{};
     case HullStep::Kind::kCollapse:
     case HullStep::Kind::kFlip:
-    case HullStep::Kind::kVanish: return edge_objection(step);
-    case HullStep::Kind::kCut: return cut_objection(step);
+      return edge_objection(step);
+    case HullStep::Kind::kCut:
+      return cut_objection(step);
   }
   return "it is of no known kind";
 }
@@ -191,7 +210,6 @@ std::string_view StepReplay::edge_objection(const HullStep& step) {
     if (are_joined(step.left, step.right)) return "turning its edge would double another";
     return {};
   }
-  if (step.kind == HullStep::Kind::kVanish) return {};
   if (common_neighbours(step.kept, step.removed) != 2) return "its collapse would double an edge";
   if (degree(step.left) < 4 || degree(step.right) < 4) return "its collapse would flatten a tetrahedron";
   return {};
@@ -306,8 +324,9 @@ void StepReplay::apply(const HullStep& step, StepChanges& changes) {
     case HullStep::Kind::kCut:
       cut(step, changes);
       break;
-    case HullStep::Kind::kVanish:
-      vanish(step, changes);
+    case HullStep::Kind::kFill:
+    case HullStep::Kind::kDrop:
+      remove_part(step.kept, changes);
       break;
   }
 }
@@ -361,8 +380,8 @@ void StepReplay::cut(const HullStep& step, StepChanges& changes) {
   }
 }
 
-/// Everything that hangs together with the edge.
-void StepReplay::vanish(const HullStep& step, StepChanges& changes) {
+/// Everything that hangs together with the vertex.
+void StepReplay::remove_part(VertexId vertex, StepChanges& changes) {
   std::vector<VertexId>& part = changes.vanished;
   const std::size_t begin = part.size();
   ++marks_;
@@ -371,7 +390,7 @@ void StepReplay::vanish(const HullStep& step, StepChanges& changes) {
     mark_[v] = marks_;
     part.push_back(v);
   };
-  meet(step.kept);
+  meet(vertex);
   for (std::size_t i = begin; i < part.size(); ++i) {
     while (first_[part[i]] != kInvalidId) {
       const FaceId face = first_[part[i]] / 3;
@@ -380,6 +399,26 @@ void StepReplay::vanish(const HullStep& step, StepChanges& changes) {
       kill(face, changes);
     }
   }
+}
+
+/// How many faces hang together with the vertex.
+std::size_t StepReplay::faces_of_part(VertexId vertex) {
+  std::vector<VertexId> part{vertex};
+  std::size_t corners = 0;
+  mark_[vertex] = ++marks_;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    std::uint32_t corner = first_[part[i]];
+    do {
+      ++corners;
+      const VertexId next = faces_[corner / 3][(corner + 1) % 3];
+      if (mark_[next] != marks_) {
+        mark_[next] = marks_;
+        part.push_back(next);
+      }
+      corner = next_[corner];
+    } while (corner != first_[part[i]]);
+  }
+  return corners / 3;
 }
 
 }  // namespace limn
