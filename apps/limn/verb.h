@@ -46,6 +46,7 @@ Verb info_verb();
 Verb make_verb();
 Verb refine_verb();
 Verb hull_verb();
+Verb clip_verb();
 Verb render_verb();
 Verb silhouette_verb();
 Verb bake_verb();

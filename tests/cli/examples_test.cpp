@@ -53,6 +53,9 @@ TEST_F(Examples, OfHullRun) {
 TEST_F(Examples, OfBakeRun) {
   run_all("bake");
 }
+TEST_F(Examples, OfClipRun) {
+  run_all("clip");
+}
 TEST_F(Examples, OfCompareRun) {
   run_all("compare");
 }
@@ -62,7 +65,7 @@ TEST_F(Examples, OfTheOthersRun) {
 }
 
 TEST_F(Examples, CoverEveryVerb) {
-  std::size_t count = 11;
+  std::size_t count = 12;
 #ifdef LIMN_WITH_GL
   ++count;
 #endif
