@@ -78,7 +78,7 @@ Result<void> check_camera(const CameraOptions& options) {
   return {};
 }
 
-Result<Camera> place_camera(const CameraOptions& options, const Mesh& mesh, float aspect) {
+Result<Camera> place_camera(const CameraOptions& options, const Mesh& mesh, float aspect, const Bounds& also) {
   const Bounds bounds = face_bounds(mesh);
   CameraFit fit;
   fit.orthographic = options.orthographic;
@@ -96,8 +96,13 @@ Result<Camera> place_camera(const CameraOptions& options, const Mesh& mesh, floa
   if (camera.eye == camera.target) {
     return fail(ErrorCode::kInvalidArgument, "--eye lies on the point looked at", "move one of them, or use --view");
   }
-  if (options.orthographic && options.eye) step_back(camera, bounds);
-  enclose(camera, bounds);
+  Bounds drawn = bounds;
+  if (!also.empty()) {
+    drawn.add(also.low);
+    drawn.add(also.high);
+  }
+  if (options.orthographic && options.eye) step_back(camera, drawn);
+  enclose(camera, drawn);
   return camera;
 }
 

@@ -1,3 +1,4 @@
+#include <array>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,8 @@ namespace limn::cli {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 4> kFigures{"mean_px", "p95_px", "max_px", "iou"};
 
 struct CompareFlags {
   InputOptions candidate;
@@ -85,10 +88,9 @@ Result<int> run(Session& session, const CompareFlags& flags) {
   if (!reference) return tl::unexpected(reference.error());
   const Result<Comparison> comparison = measure(session, flags, *candidate, reference->mesh);
   if (!comparison) return tl::unexpected(comparison.error());
-  std::vector<std::string> failed;
-  for (const Gate& gate : flags.gates) {
-    if (trips(gate, comparison->overall)) failed.push_back(gate.text);
-  }
+  const OutlineError& overall = comparison->overall;
+  const std::array values{overall.mean_px, overall.p95_px, overall.max_px, overall.iou};
+  const std::vector<std::string> failed = tripped(flags.gates, values);
   const Result<void> printed = session.json() ? session.print_json(compare_json(flags, *comparison, failed))
                                               : session.print(compare_text(flags, comparison->overall));
   if (!printed) return tl::unexpected(printed.error());
@@ -113,7 +115,7 @@ Run declare_compare(OptionTable& table) {
                             "exit 5 if so; mean_px, p95_px, max_px, iou; repeatable");
   gate.repeatable = true;
   gate.set = [flags](const std::string& text) {
-    return parse_gate(text).map([&](const Gate& read) { flags->gates.push_back(read); });
+    return parse_gate(text, kFigures).map([&](const Gate& read) { flags->gates.push_back(read); });
   };
   table.begin(Group::kFiles);
   table.toggle("--repair", flags->candidate.repair, "A: remove useless faces, turn flipped ones; says what it changed");

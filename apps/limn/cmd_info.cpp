@@ -2,9 +2,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "limn/asset/asset_file.h"
+#include "limn/base/file.h"
 #include "limn/hull/suitability.h"
 #include "limn/mesh/validate.h"
 
+#include "asset_json.h"
 #include "mesh_files.h"
 #include "verb.h"
 
@@ -59,6 +62,15 @@ ordered_json report_json(const MeshReport& report) {
   return json;
 }
 
+/// What the file is made of as a clip asset, where it is one.
+std::optional<AssetBytes> asset_bytes(const InfoOptions& options, const LoadedMesh& loaded) {
+  if (!loaded.asset) return std::nullopt;
+  const Result<FileBytes> file = FileBytes::open(options.input.path);
+  if (!file) return std::nullopt;
+  const Result<AssetBytes> bytes = measure_clip_asset(file->bytes(), options.input.path);
+  return bytes ? std::optional(*bytes) : std::nullopt;
+}
+
 ordered_json info_json(const InfoOptions& options, const LoadedMesh& loaded, const MeshReport& report) {
   ordered_json json{{"file", options.input.path}, {"format", format_name(loaded.format)}};
   json.update(report_json(report));
@@ -68,6 +80,7 @@ ordered_json info_json(const InfoOptions& options, const LoadedMesh& loaded, con
     json["techniques"].push_back({{"technique", one.technique}, {"can_run", one.can_run}, {"reasons", one.reasons}});
   }
   if (options.input.repair) json["repairs"] = loaded.repairs;
+  if (const auto bytes = asset_bytes(options, loaded)) json["asset"] = asset_json(*bytes);
   return json;
 }
 
@@ -127,6 +140,7 @@ std::string info_text(const InfoOptions& options, const LoadedMesh& loaded, cons
       line += (i == 0 ? ": " : "; ") + one.reasons[i];
     text += fmt::format("{:<13}{}\n", one.technique, line);
   }
+  if (const auto bytes = asset_bytes(options, loaded)) text += asset_text(*bytes);
   return text;
 }
 

@@ -100,7 +100,7 @@ Result<int> run(Session& session, const RefineFlags& flags) {
   View view;
   if (flags.camera.placed()) {
     const float aspect = static_cast<float>(flags.size.width) / static_cast<float>(flags.size.height);
-    const Result<Camera> camera = place_camera(flags.camera, loaded->mesh, aspect);
+    const Result<Camera> camera = place_camera(flags.camera, loaded->framed(), aspect, face_bounds(loaded->mesh));
     if (!camera) return tl::unexpected(camera.error());
     view = view_of(*camera, flags.size.height);
   }

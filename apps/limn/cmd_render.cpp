@@ -151,10 +151,11 @@ Result<Drawn> draw_on_device(Session& session, const RenderFlags& flags, Mesh me
   return drawn;
 }
 
-Result<Drawn> draw(Session& session, const RenderFlags& flags, const Mesh& mesh, gl::Context& context) {
+Result<Drawn> draw(Session& session, const RenderFlags& flags, const LoadedMesh& loaded, gl::Context& context) {
+  const Mesh& mesh = loaded.mesh;
   const auto begun = std::chrono::steady_clock::now();
   const float aspect = static_cast<float>(flags.size.width) / static_cast<float>(flags.size.height);
-  const Result<Camera> camera = place_camera(flags.camera, mesh, aspect);
+  const Result<Camera> camera = place_camera(flags.camera, loaded.framed(), aspect, face_bounds(mesh));
   if (!camera) return tl::unexpected(camera.error());
   Result<Drawn> drawn = on_device(chosen_method(flags)) ? draw_on_device(session, flags, mesh, *camera, context)
                                                         : draw_from_cpu(session, flags, mesh, *camera, context);
@@ -225,7 +226,7 @@ Result<int> run(Session& session, const RenderFlags& flags) {
   if (!loaded) return tl::unexpected(loaded.error());
   const Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
   if (!context) return tl::unexpected(context.error());
-  const Result<Drawn> drawn = draw(session, flags, loaded->mesh, **context);
+  const Result<Drawn> drawn = draw(session, flags, *loaded, **context);
   if (!drawn) return tl::unexpected(drawn.error());
   return session.check_stop()
       .and_then([&] {

@@ -168,7 +168,7 @@ Result<int> run(Session& session, const SilhouetteFlags& flags) {
   if (const Result<void> good = check_silhouette(session, flags); !good) return tl::unexpected(good.error());
   const Result<LoadedMesh> loaded = load_with_faces(session, flags.input);
   if (!loaded) return tl::unexpected(loaded.error());
-  const Result<Camera> camera = place_camera(flags.camera, loaded->mesh, flags.aspect());
+  const Result<Camera> camera = place_camera(flags.camera, loaded->framed(), flags.aspect(), face_bounds(loaded->mesh));
   if (!camera) return tl::unexpected(camera.error());
   Stopwatch watch;
   const Result<Drawing> drawing = draw(flags, loaded->mesh, *camera, session.progress());

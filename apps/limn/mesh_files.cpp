@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "limn/asset/asset_file.h"
+#include "limn/base/file.h"
 #include "limn/mesh/repair.h"
 
 #include "interrupt.h"
@@ -46,6 +48,17 @@ Result<void> check_free_stdout(const Session& session) {
   return fail(ErrorCode::kInvalidArgument, "--json and -o - both want standard output", "write the output to a file");
 }
 
+/// The asset of a file whose mesh was read.
+std::optional<ClipAsset> load_asset(Session& session, const InputOptions& options, MeshFormat format) {
+  if (format != MeshFormat::kGlb || options.path == "-") return std::nullopt;
+  const Result<FileBytes> file = FileBytes::open(options.path);
+  if (!file || !holds_clip_asset(file->bytes())) return std::nullopt;
+  Result<ClipAsset> asset = read_clip_asset(file->bytes(), options.path);
+  if (asset) return *std::move(asset);
+  session.say(format_error(asset.error()) + " (read as a mesh)");
+  return std::nullopt;
+}
+
 }  // namespace
 
 void add_input_options(OptionTable& table, InputOptions& options) {
@@ -67,7 +80,7 @@ Result<LoadedMesh> load(Session& session, const InputOptions& options) {
   Result<ImportedMesh> read = read_mesh(options.path, import);
   if (!read) return tl::unexpected(read.error());
   const std::string name = options.path == "-" ? "standard input" : options.path;
-  LoadedMesh loaded{std::move(read->mesh), read->format, std::move(read->notes), {}};
+  LoadedMesh loaded{std::move(read->mesh), read->format, std::move(read->notes), {}, {}};
   for (const std::string& note : loaded.notes)
     session.say(fmt::format("{}: {}", name, note));
   if (options.repair) {
@@ -78,6 +91,7 @@ Result<LoadedMesh> load(Session& session, const InputOptions& options) {
     for (const std::string& change : loaded.repairs)
       session.say(fmt::format("{}: repair: {}", name, change));
   }
+  loaded.asset = load_asset(session, options, loaded.format);
   return loaded;
 }
 

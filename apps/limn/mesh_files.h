@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "limn/asset/clip_asset.h"
 #include "limn/mesh/export.h"
 #include "limn/mesh/import.h"
 
@@ -25,6 +27,10 @@ struct LoadedMesh {
   MeshFormat format = MeshFormat::kUnknown;
   std::vector<std::string> notes;
   std::vector<std::string> repairs;
+  std::optional<ClipAsset> asset;  ///< where the file is a clip asset; `mesh` is its hull
+
+  /// What cameras fit: the mesh, or what the asset was made of, so that pictures of both line up.
+  const Mesh& framed() const { return asset ? asset->levels.front().mesh : mesh; }
 };
 
 /// A mesh to write.
@@ -39,7 +45,8 @@ void add_input_options(OptionTable& table, InputOptions& options);
 /// -o, --format, --ascii. \param required whether -o must be given
 void add_output_options(OptionTable& table, OutputOptions& options, bool required = true);
 
-/// Reads a mesh, repairs it when asked to, and says what the reader and the repair did.
+/// Reads a mesh, repairs it when asked to, and says what the reader and the repair did. A file that is a clip asset is
+/// read as one, too; what is wrong with it as such is said, and leaves its mesh. Standard input is a mesh alone.
 /// Errors: those of read_mesh().
 Result<LoadedMesh> load(Session& session, const InputOptions& options);
 /// As above; a mesh without faces is kUnsuitable.

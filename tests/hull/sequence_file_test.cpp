@@ -20,7 +20,7 @@ HullSequence sequence_of(const Mesh& mesh, bool with_uvs = false) {
   const Shell shell = *make_shell(mesh);
   std::vector<Vec2> uvs(with_uvs ? shell.positions.size() : 0, Vec2(0.25f, -3.5f));
   return *HullSequence::make(shell, random_steps(shell, shell.faces.size() / 3, 1),
-                             random_steps(shell, shell.faces.size() / 2, 2), uvs);
+                             random_steps(shell, shell.faces.size() / 2, 2, true), uvs);
 }
 
 void expect_same(const HullSequence& a, const HullSequence& b) {

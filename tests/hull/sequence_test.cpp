@@ -1,7 +1,10 @@
 #include "limn/hull/sequence.h"
 
 #include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
+#include <map>
+#include <set>
 
 #include "limn/mesh/shapes.h"
 
@@ -18,9 +21,14 @@ struct PlainSurface {
   std::vector<Vec3> positions;
   std::vector<Triangle> faces;
   std::vector<bool> alive;
+  bool turned;
 
-  explicit PlainSurface(const Shell& shell)
-      : positions(shell.positions), faces(shell.faces), alive(shell.faces.size(), true) {}
+  /// \param inwards  turned inside out, as inner hulls are made
+  explicit PlainSurface(const Shell& shell, bool inwards = false)
+      : positions(shell.positions),
+        faces(inwards ? turned_faces(shell.faces) : shell.faces),
+        alive(shell.faces.size(), true),
+        turned(inwards) {}
 
   void apply(const HullStep& step) {
     if (step.kind == HullStep::Kind::kFlip) {
@@ -28,6 +36,8 @@ struct PlainSurface {
       faces[step.face_right] = {step.removed, step.left, step.right};
       return;
     }
+    if (step.kind == HullStep::Kind::kCut) return cut(step);
+    if (step.kind == HullStep::Kind::kFill || step.kind == HullStep::Kind::kDrop) return remove_part(step.kept);
     positions[step.kept] = step.after;
     if (step.kind == HullStep::Kind::kMove) return;
     for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -37,6 +47,49 @@ struct PlainSurface {
     }
     alive[step.face_left] = alive[step.face_right] = false;
   }
+
+  /// Each corner's faces by the neighbours they lie between; those from the last corner on to the next go.
+  void cut(const HullStep& step) {
+    const std::array<VertexId, 3> old{step.kept, step.removed, step.left};
+    std::vector<std::pair<std::size_t, VertexId>> given;
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::map<VertexId, std::pair<VertexId, std::size_t>> around;
+      for (std::size_t f = 0; f < faces.size(); ++f) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          if (alive[f] && faces[f][c] == old[i]) around[faces[f][(c + 1) % 3]] = {faces[f][(c + 2) % 3], 3 * f + c};
+        }
+      }
+      for (VertexId next = old[(i + 2) % 3]; next != old[(i + 1) % 3]; next = around.at(next).first)
+        given.emplace_back(around.at(next).second, step.right + static_cast<VertexId>(i));
+    }
+    for (const auto& [corner, v] : given)
+      faces[corner / 3][corner % 3] = v;
+    for (const VertexId v : old)
+      positions.push_back(positions[v]);
+    faces.push_back({step.kept, step.left, step.removed});
+    faces.push_back({step.right, step.right + 1, step.right + 2});
+    alive.resize(faces.size(), true);
+  }
+
+  std::set<VertexId> part_of(VertexId vertex) const {
+    std::set<VertexId> part{vertex};
+    for (std::size_t before = 0; before != part.size();) {
+      before = part.size();
+      for (std::size_t f = 0; f < faces.size(); ++f) {
+        const Triangle& t = faces[f];
+        if (alive[f] && (part.contains(t[0]) || part.contains(t[1]) || part.contains(t[2])))
+          part.insert(t.begin(), t.end());
+      }
+    }
+    return part;
+  }
+
+  void remove_part(VertexId vertex) {
+    const std::set<VertexId> part = part_of(vertex);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (part.contains(faces[f][0])) alive[f] = false;
+    }
+  }
 };
 
 void expect_equal(const HullCursor& cursor, const PlainSurface& plain) {
@@ -45,7 +98,9 @@ void expect_equal(const HullCursor& cursor, const PlainSurface& plain) {
     ASSERT_EQ(cursor.is_alive(face), plain.alive[face]);
     if (!plain.alive[face]) continue;
     ++live;
-    ASSERT_EQ(cursor.faces()[face], plain.faces[face]);
+    Triangle expected = plain.faces[face];
+    if (plain.turned) std::swap(expected[1], expected[2]);
+    ASSERT_EQ(cursor.faces()[face], expected);
     for (const VertexId v : plain.faces[face])
       ASSERT_EQ(cursor.positions()[v], plain.positions[v]);
   }
@@ -58,23 +113,33 @@ Shell shell_of(Shape shape, std::size_t faces) {
 
 HullSequence some_sequence() {
   const Shell shell = shell_of(Shape::kHoles3, 600);
-  return *HullSequence::make(shell, random_steps(shell, 60, 1), random_steps(shell, 100, 2));
+  return *HullSequence::make(shell, random_steps(shell, 60, 1), random_steps(shell, 100, 2, true));
 }
 
 TEST(HullSequence, EveryMemberIsWhatItsStepsMake) {
   const HullSequence sequence = some_sequence();
   EXPECT_GT(sequence.outermost(), 100);
   for (const bool outer : {true, false}) {
-    PlainSurface plain(sequence.shell());
+    PlainSurface plain(sequence.shell(), !outer);
     HullCursor cursor(sequence);
     for (const HullStep& step : outer ? sequence.outer_steps() : sequence.inner_steps()) {
-      plain.apply(step);
+      plain.apply(outer ? step : turned_step(step));
       ASSERT_TRUE(outer ? cursor.step_outwards() : cursor.step_inwards());
       expect_equal(cursor, plain);
       EXPECT_EQ(sequence.faces_at(cursor.level()), cursor.face_count());
     }
     EXPECT_FALSE(outer ? cursor.step_outwards() : cursor.step_inwards());
   }
+}
+
+TEST(HullSequence, HoldsStepsOfEveryKind) {
+  const HullSequence sequence = some_sequence();
+  std::map<HullStep::Kind, int> counts;
+  for (const HullStep& step : sequence.outer_steps())
+    ++counts[step.kind];
+  for (const HullStep& step : sequence.inner_steps())
+    ++counts[step.kind];
+  EXPECT_EQ(counts.size(), 6u);
 }
 
 TEST(HullSequence, ACursorComesBackToTheSameBits) {
@@ -89,12 +154,18 @@ TEST(HullSequence, ACursorComesBackToTheSameBits) {
     HullCursor straight(sequence);
     straight.go_to(level);
     EXPECT_EQ(there.level(), level);
-    EXPECT_TRUE(std::equal(there.positions().begin(), there.positions().end(), straight.positions().begin()));
-    EXPECT_TRUE(std::equal(there.faces().begin(), there.faces().end(), straight.faces().begin()));
+    for (FaceId face = 0; face < straight.faces().size(); ++face) {
+      ASSERT_EQ(there.is_alive(face), straight.is_alive(face));
+      if (!straight.is_alive(face)) continue;
+      ASSERT_EQ(there.faces()[face], straight.faces()[face]);
+      for (const VertexId v : straight.faces()[face])
+        ASSERT_EQ(there.positions()[v], straight.positions()[v]);
+    }
   }
   there.go_to(0);
-  EXPECT_TRUE(std::equal(there.faces().begin(), there.faces().end(), sequence.shell().faces.begin()));
-  EXPECT_TRUE(std::equal(there.positions().begin(), there.positions().end(), sequence.shell().positions.begin()));
+  EXPECT_TRUE(std::equal(sequence.shell().faces.begin(), sequence.shell().faces.end(), there.faces().begin()));
+  EXPECT_TRUE(
+      std::equal(sequence.shell().positions.begin(), sequence.shell().positions.end(), there.positions().begin()));
 }
 
 TEST(HullSequence, MembersAreClosedManifoldMeshes) {
@@ -118,14 +189,14 @@ TEST(HullSequence, FindsTheNearestLevelOfSoManyFaces) {
   const HullSequence sequence = some_sequence();
   for (const std::size_t faces : {0u, 60u, 61u, 99u, 100u, 333u, 600u, 1000000u}) {
     const int outer = sequence.outer_level(faces), inner = sequence.inner_level(faces);
-    EXPECT_TRUE(sequence.faces_at(outer) <= faces || outer == sequence.outermost());
-    EXPECT_TRUE(sequence.faces_at(inner) <= faces || inner == sequence.innermost());
-    if (outer > 0) {
-      EXPECT_GT(sequence.faces_at(outer - 1), faces);
-    }
-    if (inner < 0) {
-      EXPECT_GT(sequence.faces_at(inner + 1), faces);
-    }
+    EXPECT_TRUE(sequence.faces_at(outer) <= faces ||
+                sequence.faces_at(outer) <= sequence.faces_at(sequence.outermost()));
+    EXPECT_TRUE(sequence.faces_at(inner) <= faces ||
+                sequence.faces_at(inner) <= sequence.faces_at(sequence.innermost()));
+    for (int level = 0; level < outer; ++level)
+      EXPECT_GT(sequence.faces_at(level), std::max(faces, sequence.faces_at(outer)));
+    for (int level = 0; level > inner; --level)
+      EXPECT_GT(sequence.faces_at(level), std::max(faces, sequence.faces_at(inner)));
   }
 }
 
@@ -135,9 +206,15 @@ TEST(HullSequence, HeirsAreTheVerticesThatCollapsesKept) {
   for (VertexId v = 0; v < heirs.size(); ++v)
     heirs[v] = v;
   EXPECT_EQ(sequence.heirs_at(0), heirs);
+  PlainSurface plain(sequence.shell());
   for (int level = 1; level <= sequence.outermost(); ++level) {
     const HullStep& step = sequence.outer_steps()[static_cast<std::size_t>(level) - 1];
     if (step.kind == HullStep::Kind::kCollapse) std::replace(heirs.begin(), heirs.end(), step.removed, step.kept);
+    if (step.kind == HullStep::Kind::kFill || step.kind == HullStep::Kind::kDrop) {
+      for (const VertexId v : plain.part_of(step.kept))
+        std::replace(heirs.begin(), heirs.end(), v, kInvalidId);
+    }
+    plain.apply(step);
     if (level % 20 == 0 || level == sequence.outermost()) {
       EXPECT_EQ(sequence.heirs_at(level), heirs);
     }
@@ -195,14 +272,14 @@ TEST(StepReplay, KeepsAwkwardShellsManifold) {
     SCOPED_TRACE(entry.name);
     EXPECT_TRUE(limn::is_closed_manifold(shell->positions.size(), shell->faces));
     StepReplay replay(shell->positions, shell->faces);
-    std::vector<CornerChange> changes;
+    StepChanges changes;
     std::size_t checks = 0;
     for (const HullStep& step : random_steps(*shell, 4, 9)) {
       replay.apply(step, changes);
       if (++checks % 8 != 0) continue;
       Mesh mesh;
-      std::vector<VertexId> number(shell->positions.size(), kInvalidId);
-      for (FaceId face = 0; face < shell->faces.size(); ++face) {
+      std::vector<VertexId> number(replay.positions().size(), kInvalidId);
+      for (FaceId face = 0; face < replay.faces().size(); ++face) {
         if (!replay.is_alive(face)) continue;
         Triangle t = replay.faces()[face];
         for (VertexId& v : t) {

@@ -98,8 +98,7 @@ Result<BuiltClipAsset> build_clip_asset(const Mesh& original, const ClipOptions&
   BuiltClipAsset built;
   Clock clock;
   Result<Hull> hull = build_hull(
-      original,
-      {.faces = options.faces, .strict = options.strict, .keep_steps = true, .progress = options.progress});
+      original, {.faces = options.faces, .strict = options.strict, .keep_steps = true, .progress = options.progress});
   if (!hull) return tl::unexpected(hull.error());
   built.report.hull_ms = clock.lap_ms();
   Result<std::vector<SilhouetteLevel>> levels = asset::silhouette_levels(*hull, options.levels, options.progress);

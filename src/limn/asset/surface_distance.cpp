@@ -10,103 +10,86 @@
 namespace limn::asset {
 namespace {
 
-using bake_detail::FacePoint;
 using bake_detail::FaceTree;
 
 constexpr double kSlack = 1.2;
-/// Cut this often, a triangle is a thousandth of a face across; its bound is taken as it is then.
-constexpr int kMostCuts = 10;
+/// Pieces looked at, a face on average: beyond them the bound is taken as it is.
+constexpr std::size_t kPiecesPerFace = 32;
+constexpr std::size_t kPiecesAlways = 100'000;
 
-struct Piece {
-  std::array<DVec3, 3> corners;
-  int cuts = 0;
-};
+using Piece = std::array<Vec3, 3>;
 
-/// Finds the bound of one face, given that a distance of `known` is reached somewhere.
-class FaceBound {
- public:
-  FaceBound(const FaceTree& reference, double known) : reference_(reference), known_(known) {}
-
-  SurfaceDistance of(const Piece& face) {
-    SurfaceDistance found;
-    pieces_.assign(1, face);
-    while (!pieces_.empty()) {
-      const Piece piece = pieces_.back();
-      pieces_.pop_back();
-      const DVec3 middle = (piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3.0;
-      const double distance = distance_of(middle);
-      double way = 0.0;
-      for (const DVec3& corner : piece.corners)
-        way = std::max(way, glm::length(corner - middle));
-      found.reached = std::max(found.reached, distance);
-      if (distance + way <= kSlack * std::max(known_, found.reached) || piece.cuts == kMostCuts)
-        found.bound = std::max(found.bound, distance + way);
-      else
-        cut(piece);
-    }
-    return found;
-  }
-
- private:
-  double distance_of(const DVec3& p) {
-    hint_ = reference_.closest(Vec3(p), hint_);
-    return hint_.distance;
-  }
-
-  void cut(const Piece& piece) {
-    const auto& [a, b, c] = piece.corners;
-    const DVec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-    const int cuts = piece.cuts + 1;
-    pieces_.push_back({{a, ab, ca}, cuts});
-    pieces_.push_back({{b, bc, ab}, cuts});
-    pieces_.push_back({{c, ca, bc}, cuts});
-    pieces_.push_back({{ab, bc, ca}, cuts});
-  }
-
-  const FaceTree& reference_;
-  double known_;
-  FacePoint hint_;
-  std::vector<Piece> pieces_;
-};
-
-Piece piece_of(const Mesh& mesh, const Triangle& face) {
-  return {{DVec3(mesh.positions[face[0]]), DVec3(mesh.positions[face[1]]), DVec3(mesh.positions[face[2]])}, 0};
+/// How far a piece lies from the reference: its centroid, and at most.
+SurfaceDistance distance_of(const Piece& piece, const FaceTree& reference) {
+  const DVec3 middle = (DVec3(piece[0]) + DVec3(piece[1]) + DVec3(piece[2])) / 3.0;
+  double way = 0.0;
+  for (const Vec3& corner : piece)
+    way = std::max(way, glm::length(DVec3(corner) - middle));
+  const double distance = reference.closest(Vec3(middle)).distance;
+  return {distance, distance + way};
 }
 
-/// The distances of points, in order.
-template <class PointAt>
-std::vector<float> distances(std::size_t count, const FaceTree& reference, const PointAt& point_at) {
-  std::vector<float> result(count);
-  parallel_for(count, 1024, [&](std::size_t begin, std::size_t end) {
-    FacePoint hint;
-    for (std::size_t i = begin; i < end; ++i) {
-      hint = reference.closest(point_at(i), hint);
-      result[i] = hint.distance;
+void cut(const Piece& piece, std::vector<Piece>& pieces) {
+  const auto& [a, b, c] = piece;
+  const Vec3 ab = 0.5f * a + 0.5f * b, bc = 0.5f * b + 0.5f * c, ca = 0.5f * c + 0.5f * a;
+  pieces.insert(pieces.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+}
+
+std::vector<SurfaceDistance> distances_of(const std::vector<Piece>& pieces, const FaceTree& reference) {
+  std::vector<SurfaceDistance> found(pieces.size());
+  parallel_for(pieces.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      found[i] = distance_of(pieces[i], reference);
+  });
+  return found;
+}
+
+/// Of the vertices that faces use; 0 for the others.
+std::vector<float> corner_distances(const Mesh& surface, const FaceTree& reference) {
+  std::vector<std::uint8_t> used(surface.positions.size(), 0);
+  for (const Triangle& face : surface.faces) {
+    for (const VertexId v : face)
+      used[v] = 1;
+  }
+  std::vector<float> distances(surface.positions.size(), 0.0f);
+  parallel_for(distances.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (used[v] != 0) distances[v] = reference.closest(surface.positions[v]).distance;
     }
   });
-  return result;
+  return distances;
 }
 
 }  // namespace
 
 SurfaceDistance distance_from(const Mesh& surface, const FaceTree& reference) {
-  const std::vector<float> corners =
-      distances(surface.positions.size(), reference, [&](std::size_t v) { return surface.positions[v]; });
   SurfaceDistance total;
-  for (const Triangle& face : surface.faces) {
-    for (const VertexId v : face)
-      total.reached = std::max(total.reached, double{corners[v]});
+  std::vector<Piece> pieces;
+  for (const Triangle& face : surface.faces)
+    pieces.push_back({surface.positions[face[0]], surface.positions[face[1]], surface.positions[face[2]]});
+  for (const float corner : corner_distances(surface, reference))
+    total.reached = std::max(total.reached, double{corner});
+  std::size_t left = kPiecesPerFace * pieces.size() + kPiecesAlways;
+  while (!pieces.empty()) {
+    const std::vector<SurfaceDistance> found = distances_of(pieces, reference);
+    left -= pieces.size();
+    for (const SurfaceDistance& piece : found)
+      total.reached = std::max(total.reached, piece.reached);
+    std::vector<Piece> next;
+    double doubtful = 0.0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const bool settled = found[i].bound <= kSlack * total.reached;
+      if (settled) total.bound = std::max(total.bound, found[i].bound);
+      if (!settled) doubtful = std::max(doubtful, found[i].bound);
+      if (!settled) cut(pieces[i], next);
+    }
+    if (next.size() > left) {
+      total.bound = std::max(total.bound, doubtful);
+      break;
+    }
+    pieces = std::move(next);
   }
-  const double known = total.reached;
-  std::vector<SurfaceDistance> found(surface.faces.size());
-  parallel_for(found.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f)
-      found[f] = FaceBound(reference, known).of(piece_of(surface, surface.faces[f]));
-  });
-  for (const SurfaceDistance& face : found) {
-    total.reached = std::max(total.reached, face.reached);
-    total.bound = std::max(total.bound, face.bound);
-  }
+  total.bound = std::max(total.bound, total.reached);
   // The distances are rounded to floats, and so were the points.
   const Bounds bounds = face_bounds(surface);
   double largest = 0.0;

@@ -10,18 +10,19 @@ namespace limn::asset {
 /// How far a surface lies from another at most.
 struct SurfaceDistance {
   double reached = 0;  ///< a point of the surface lies that far
-  double bound = 0;    ///< no point of it lies further; at most a fifth above `reached`, or the roundings' size
+  double bound = 0;    ///< no point of it lies further
 };
 
 /// The largest distance of a point of the surface from the nearest point of the reference: a bound that holds for every
 /// point, not for samples only.
 ///
 /// Distances change by no more than a point moves: a triangle lies within the distance of its centroid and the way from
-/// there to its farthest corner. Triangles that may lie beyond the largest distance known are cut into four until none
-/// does. Where the surface encloses the reference, this is also how far its outline can lie from the reference's outline,
-/// from any viewpoint at a distance from both (docs/asset.md).
-/// Cost: in proportion to the area over the square of the result; about 50 nearest points a face for hulls.
-/// Same result for any number of threads. \pre both have faces
+/// there to its farthest corner. Triangles that may lie more than a fifth beyond the largest distance known are cut
+/// into four, until none does; or until 32 a face were looked at, as happens where the surface lies on the reference
+/// nearly everywhere: then the bound is that of the size of the pieces. Where the surface encloses the reference, this
+/// is also how far its outline can lie from the reference's outline, from any viewpoint at a distance from both
+/// (docs/asset.md). Cost: at most 32 nearest points a face, and 100,000. Memory: 36 bytes for each of as many. Same
+/// result for any number of threads. \pre both have faces
 SurfaceDistance distance_from(const Mesh& surface, const bake_detail::FaceTree& reference);
 
 }  // namespace limn::asset

@@ -114,7 +114,8 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double xy = u.x * v.y, yx = u.y * v.x;
   const double determinant = (yz - zy) * w.x + (zx - xz) * w.y + (xy - yx) * w.z;
   const double permanent = (std::abs(yz) + std::abs(zy)) * std::abs(w.x) +
-                           (std::abs(zx) + std::abs(xz)) * std::abs(w.y) + (std::abs(xy) + std::abs(yx)) * std::abs(w.z);
+                           (std::abs(zx) + std::abs(xz)) * std::abs(w.y) +
+                           (std::abs(xy) + std::abs(yx)) * std::abs(w.z);
   const double bound = kErrorBound * permanent;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;

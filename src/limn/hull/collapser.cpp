@@ -1,146 +1,211 @@
 #include "limn/hull/collapser.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 
-#include "limn/base/orient3d.h"
+#include "limn/base/parallel.h"
 
 namespace limn {
 namespace {
-double env(const char* n, double d) { const char* s = std::getenv(n); return s ? std::atof(s) : d; }
-const double kEps = env("EPS", 0.1);
-const double kReach = env("REACH", 1e9);
-const double kShape = env("SHAPE", 0);
-constexpr double kTolerance = 1e-7;
-constexpr double kFloat = 4e-7;
+
+// Of placements that add the same volume, how much nearer to the edge's middle one must lie to be taken (docs/hull.md).
+constexpr double kTie = 0.005;
+// Volume of edge length cubed that a collapse is charged besides: short edges go first where volumes say little.
+constexpr double kShape = 0.0033;
+// Normals are kept as floats, and placements have a tolerance: how far outside of the planes to aim, in edge lengths.
+constexpr double kAim = 2e-6;
+constexpr std::size_t kGrain = 512;
+// Added to the births of a vertex that is gone: no candidate of its edges fits any more.
+constexpr std::uint32_t kDead = 0x40000000u;
+
+/// Spacing of floats about the two points and as far away as a vertex may go, halved.
+double half_spacing(const DVec3& a, const DVec3& b, double reach) {
+  const DVec3 largest = glm::max(glm::abs(a), glm::abs(b)) + reach;
+  return glm::length(largest) * 0x1.0p-24 + 0x1.0p-149;
+}
+
 }  // namespace
 
-Collapser::Collapser(RingSurface& surface) : surface_(surface), born_(surface.vertex_count(), 0), touched_(surface.vertex_count(), 0) {}
+Collapser::Collapser(RingSurface& surface, std::vector<HullStep>& log, Certificate& certificate, StepGuard* guard)
+    : surface_(surface),
+      log_(log),
+      certificate_(certificate),
+      guard_(guard),
+      born_(surface.vertex_count(), 0),
+      touched_(surface.vertex_count(), 0) {}
 
-void Collapser::fill() {
+void Collapser::offer_all() {
+  queue_.clear();
+  std::vector<Candidate> edges;
   for (VertexId v = 0; v < surface_.vertex_count(); ++v) {
     for (const RingLink& link : surface_.ring(v)) {
-      if (v < link.vertex) offer(v, link.vertex);
+      if (v < link.vertex) edges.push_back({v, link.vertex, 0, 0, Vec3(0), -1.0f});
     }
+  }
+  parallel_for(edges.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    Workspace workspace;
+    for (std::size_t i = begin; i < end; ++i) {
+      Candidate candidate;
+      if (place(edges[i].a, edges[i].b, workspace, candidate)) edges[i] = candidate;
+    }
+  });
+  counts_.programs += edges.size();
+  for (const Candidate& candidate : edges) {
+    if (candidate.cost >= 0.0f) {
+      queue_.push(candidate);
+    } else {
+      ++counts_.infeasible;
+    }
+  }
+}
+
+void Collapser::offer_around(std::span<const VertexId> vertices) {
+  born_.resize(surface_.vertex_count(), 0);
+  touched_.resize(surface_.vertex_count(), 0);
+  for (const VertexId v : vertices) {
+    if (!surface_.alive(v)) {
+      born_[v] += kDead;
+      continue;
+    }
+    ++born_[v];
+    ++touched_[v];
+    for (const RingLink& link : surface_.ring(v))
+      ++touched_[link.vertex];
+  }
+  for (const VertexId v : vertices) {
+    for (const RingLink& link : surface_.ring(v))
+      offer(v, link.vertex);
   }
 }
 
 void Collapser::offer(VertexId a, VertexId b) {
   Candidate candidate;
-  if (evaluate(a, b, candidate)) queue_.push(candidate);
+  ++counts_.programs;
+  if (place(a, b, workspace_, candidate)) {
+    queue_.push(candidate);
+  } else {
+    ++counts_.infeasible;
+  }
 }
 
-bool Collapser::evaluate(VertexId a, VertexId b, Candidate& candidate) {
-  ++counts_.programs;
-  const double scale = surface_.scale();
-  const DVec3 pa(surface_.position(a)), pb(surface_.position(b));
-  const DVec3 middle = 0.5 * (pa + pb);
-  const DVec3 half = (pb - pa) * (0.5 * scale);
-  const double h = 2.0 * glm::length(half);
-  const DVec3 ulp = (glm::max(glm::abs(pa), glm::abs(pb)) * scale + 4.0 * h) * 0x1.0p-24 + scale * 0x1.0p-149;
-  planes_.clear();
-  weights_.clear();
-  base_.clear();
-  DVec3 gradient(0.0);
-  const auto add = [&](const FacePlane& plane, const DVec3& point) {
-    const DVec3 n(plane.normal);
-    const double base = glm::dot(n, point);
-    gradient += n * double{plane.area};
-    if (plane.area > 0.0f) planes_.add(n, base + glm::dot(glm::abs(n), ulp) + kFloat * h);
-    else return;
-    weights_.push_back(plane.area);
-    base_.push_back(base);
+/// The planes of all faces around an edge, about its middle, in lengths of the edge.
+void Collapser::gather(VertexId a, VertexId b, const Vec3& half, float margin, Workspace& workspace) const {
+  PlacementPlanes& planes = workspace.planes;
+  planes.clear();
+  workspace.areas.clear();
+  Vec3 gradient(0.0f);
+  const auto add = [&](FaceId face, const Vec3& point) {
+    const FacePlane& plane = surface_.plane(face);
+    if (!(plane.area > 0.0f)) return;  // a face without extent is outside of nothing
+    planes.add(plane.normal, glm::dot(plane.normal, point) + margin);
+    workspace.areas.push_back(plane.area);
+    gradient += plane.area * plane.normal;
   };
   FaceId left = kInvalidId, right = kInvalidId;
-  const auto ring_a = surface_.ring(a);
+  const std::span<const RingLink> ring_a = surface_.ring(a);
   for (std::size_t i = 0; i < ring_a.size(); ++i) {
-    add(surface_.plane(ring_a[i].face), -half);
-    if (ring_a[i].vertex == b) {
-      left = ring_a[i].face;
-      right = ring_a[i == 0 ? ring_a.size() - 1 : i - 1].face;
-    }
+    add(ring_a[i].face, -half);
+    if (ring_a[i].vertex != b) continue;
+    left = ring_a[i].face;
+    right = ring_a[i == 0 ? ring_a.size() - 1 : i - 1].face;
   }
   for (const RingLink& link : surface_.ring(b)) {
-    if (link.face != left && link.face != right) add(surface_.plane(link.face), half);
+    if (link.face != left && link.face != right) add(link.face, half);
   }
-  const double g = glm::length(gradient);
-  if (!(g > 0.0)) return false;
+  workspace.gradient = gradient;
+}
+
+bool Collapser::place(VertexId a, VertexId b, Workspace& workspace, Candidate& candidate) const {
+  const DVec3 at_a(surface_.position(a));
+  const DVec3 at_b(surface_.position(b));
+  const DVec3 along = at_b - at_a;
+  const double length = glm::length(along);
+  candidate = {a, b, born_[a] + born_[b], touched_[a] + touched_[b], surface_.position(a), 0.0f};
+  if (length == 0.0) return true;  // nothing moves
+  const auto margin = static_cast<float>(half_spacing(at_a, at_b, reach_ * length) / length + kAim);
+  gather(a, b, Vec3(along * (0.5 / length)), margin, workspace);
+  const double steepness = glm::length(DVec3(workspace.gradient));
+  if (!(steepness > 0.0)) return false;
   DVec3 x;
-  if (!nearest_point(planes_, gradient * (-h / (kEps * g)), kTolerance * h, x)) {
-    ++counts_.infeasible;
-    return false;
-  }
-  if (glm::dot(x, x) > kReach * kReach * h * h) return false;
-  double cost = 0.0;
-  for (std::size_t i = 0; i < planes_.size(); ++i) {
-    const DVec3 n = planes_.normal(i);
-    cost += weights_[i] * std::max(0.0, glm::dot(n, x) - base_[i]);
-  }
-  cost += kShape * h * h * h;
-  candidate = {a, b, born_[a] + born_[b], touched_[a] + touched_[b], Vec3(middle + x / scale), static_cast<float>(cost / 3.0)};
+  if (!nearest_point(workspace.planes, DVec3(workspace.gradient) * (-1.0 / (kTie * steepness)), x)) return false;
+  if (glm::dot(x, x) > reach_ * reach_) return false;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < workspace.planes.size(); ++i)
+    sum += double{workspace.areas[i]} * std::max(0.0, workspace.planes.side(i, x) + double{margin});
+  candidate.position = Vec3(0.5 * (at_a + at_b) + x * length);
+  const double scaled = length * surface_.scale();
+  candidate.cost = static_cast<float>(sum * scaled / 3.0 + kShape * scaled * scaled * scaled);
   return is_finite(candidate.position);
 }
 
-bool Collapser::certify(VertexId v, VertexId skip, const Vec3& position, double& margin) {
-  const auto ring = surface_.ring(v);
-  const Vec3 pv = surface_.position(v);
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const VertexId x = ring[i].vertex, y = ring[i + 1 == ring.size() ? 0 : i + 1].vertex;
-    if (x == skip || y == skip) continue;
-    const Vec3 px = surface_.position(x), py = surface_.position(y);
-    if (orient3d(pv, px, py, position) < 0) return false;
-    ++counts_.certified;
-    const DVec3 n = glm::cross(DVec3(px) - DVec3(pv), DVec3(py) - DVec3(pv));
-    const double l = glm::length(n);
-    if (l > 0) margin = std::min(margin, glm::dot(n, DVec3(position) - DVec3(pv)) / l);
-  }
-  return true;
-}
-
-bool Collapser::folds(VertexId v, VertexId skip, const Vec3& position) {
-  const auto ring = surface_.ring(v);
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const VertexId x = ring[i].vertex, y = ring[i + 1 == ring.size() ? 0 : i + 1].vertex;
-    if (x == skip || y == skip) continue;
-    const DVec3 n = glm::cross(DVec3(surface_.position(x)) - DVec3(position), DVec3(surface_.position(y)) - DVec3(position));
-    if (!(glm::dot(n, DVec3(surface_.plane(ring[i].face).normal)) > 0)) return true;
-  }
-  return false;
-}
-
-bool Collapser::attempt(const Candidate& c, HullStep& done) {
-  if (!surface_.can_collapse(c.a, c.b)) { ++counts_.topology; return false; }
-  if (folds(c.a, c.b, c.position) || folds(c.b, c.a, c.position)) { ++counts_.folds; return false; }
-  double margin = counts_.worst_margin;
-  if (!certify(c.a, kInvalidId, c.position, margin) || !certify(c.b, c.a, c.position, margin)) { ++counts_.refused; return false; }
-  counts_.worst_margin = margin;
-  done = surface_.collapse_step(c.a, c.b, c.position);
-  surface_.apply(done);
-  ++born_[c.a];
-  ++touched_[c.a];
-  for (const RingLink& link : surface_.ring(c.a))
-    ++touched_[link.vertex];
-  return true;
-}
-
-bool Collapser::step(HullStep& done) {
-  while (!queue_.empty()) {
-    Candidate c = queue_.pop();
-    ++counts_.popped;
-    if (!surface_.alive(c.a) || !surface_.alive(c.b) || born_[c.a] + born_[c.b] != c.born) continue;
-    if (touched_[c.a] + touched_[c.b] != c.touched) {
-      ++counts_.stale;
-      if (!evaluate(c.a, c.b, c)) continue;
-      if (!queue_.is_next(c.cost)) { queue_.push(c); continue; }
+bool Collapser::folds(VertexId v, VertexId skip, const Vec3& position) const {
+  const std::span<const RingLink> ring = surface_.ring(v);
+  const DVec3 apex(position);
+  RingLink last = ring.back();
+  for (const RingLink& link : ring) {
+    if (last.vertex != skip && link.vertex != skip) {
+      const DVec3 normal =
+          glm::cross(DVec3(surface_.position(last.vertex)) - apex, DVec3(surface_.position(link.vertex)) - apex);
+      const FacePlane& old = surface_.plane(last.face);
+      if (old.area > 0.0f && !(glm::dot(normal, DVec3(old.normal)) > 0.0)) return true;
     }
-    if (!attempt(c, done)) continue;
-    for (const RingLink& link : surface_.ring(c.a))
-      offer(c.a, link.vertex);
-    return true;
+    last = link;
   }
   return false;
+}
+
+bool Collapser::take(const Candidate& c) {
+  if (folds(c.a, c.b, c.position) || folds(c.b, c.a, c.position)) {
+    ++counts_.folded;
+    return false;
+  }
+  Certificate certificate;
+  if (!is_outside_faces(surface_, c.a, kInvalidId, c.position, certificate) ||
+      !is_outside_faces(surface_, c.b, c.a, c.position, certificate)) {
+    ++counts_.refused;
+    return false;
+  }
+  const HullStep step = surface_.collapse_step(c.a, c.b, c.position);
+  if (guard_ != nullptr && !guard_->allows(surface_, step)) {
+    ++counts_.guarded;
+    return false;
+  }
+  surface_.apply(step);
+  if (guard_ != nullptr) guard_->taken(surface_, step);
+  certificate_.add(certificate);
+  log_.push_back(step);
+  return true;
+}
+
+/// Places a popped edge again where a face around it has changed; false where it is not the next any more, or gone.
+bool Collapser::refresh(Candidate& c) {
+  if (born_[c.a] + born_[c.b] != c.born) return false;
+  if (touched_[c.a] + touched_[c.b] == c.touched) return true;
+  ++counts_.programs;
+  if (!place(c.a, c.b, workspace_, c)) {
+    ++counts_.infeasible;
+    return false;
+  }
+  if (queue_.is_next(c.cost)) return true;
+  queue_.push(c);
+  return false;
+}
+
+Collapser::Outcome Collapser::step() {
+  while (!queue_.empty()) {
+    edge_ = queue_.pop();
+    if (!refresh(edge_)) continue;
+    if (!surface_.can_collapse(edge_.a, edge_.b)) {
+      ++counts_.linked;
+      return Outcome::kLinked;
+    }
+    if (!take(edge_)) continue;
+    offer_around(std::array{edge_.a, edge_.b});
+    return Outcome::kCollapsed;
+  }
+  return Outcome::kExhausted;
 }
 
 }  // namespace limn

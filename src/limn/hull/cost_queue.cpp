@@ -1,37 +1,37 @@
 #include "limn/hull/cost_queue.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace limn {
 
+void CostQueue::clear() {
+  for (std::vector<Candidate>& bucket : buckets_)
+    bucket.clear();
+  first_ = kBuckets;
+  size_ = 0;
+}
+
 void CostQueue::push(const Candidate& candidate) {
-  std::uint32_t id = free_;
-  if (id == kInvalidId) {
-    id = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
-  } else {
-    free_ = nodes_[id].next;
-  }
-  const std::uint32_t bucket = bucket_of(candidate.cost);
-  nodes_[id] = {candidate, heads_[bucket]};
-  heads_[bucket] = id;
-  if (bucket < first_) first_ = bucket;
+  assert(candidate.cost >= 0.0f);
+  // -0 would be the dearest.
+  const std::uint32_t bucket = candidate.cost > 0.0f ? bucket_of(candidate.cost) : 0;
+  buckets_[bucket].push_back(candidate);
+  first_ = std::min(first_, bucket);
   ++size_;
 }
 
 Candidate CostQueue::pop() {
   assert(size_ > 0);
-  const std::uint32_t bucket = lowest();
-  const std::uint32_t id = heads_[bucket];
-  heads_[bucket] = nodes_[id].next;
-  nodes_[id].next = free_;
-  free_ = id;
+  std::vector<Candidate>& bucket = buckets_[lowest()];
+  const Candidate candidate = bucket.back();
+  bucket.pop_back();
   --size_;
-  return nodes_[id].candidate;
+  return candidate;
 }
 
 std::uint32_t CostQueue::lowest() {
-  while (first_ < kBuckets && heads_[first_] == kInvalidId)
+  while (first_ < kBuckets && buckets_[first_].empty())
     ++first_;
   return first_;
 }

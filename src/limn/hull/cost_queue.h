@@ -18,17 +18,19 @@ struct Candidate {
   float cost;
 };
 
-/// Candidates by cost, to 1 part in 128: buckets by the leading bits of the cost, the last in a bucket first out.
-/// Pushing and popping take constant time, where a heap's comparisons would miss the cache.
+/// Candidates by cost, to 1 part in 128: buckets by the leading bits of the cost, in a bucket last in, first out.
+/// Pushing and popping take constant time and read memory in order, where a heap's comparisons miss the cache.
 class CostQueue {
  public:
-  CostQueue() : heads_(kBuckets, kInvalidId) {}
+  CostQueue() : buckets_(kBuckets) {}
 
   bool empty() const { return size_ == 0; }
+  void clear();
+  /// \pre cost >= 0
   void push(const Candidate& candidate);
   /// \pre !empty()
   Candidate pop();
-  /// Whether a candidate of this cost would come before all others.
+  /// Whether a candidate of this cost would be among the next.
   bool is_next(float cost) { return bucket_of(cost) <= lowest(); }
 
  private:
@@ -36,13 +38,7 @@ class CostQueue {
   static std::uint32_t bucket_of(float cost) { return std::bit_cast<std::uint32_t>(cost) >> 16; }
   std::uint32_t lowest();
 
-  struct Node {
-    Candidate candidate;
-    std::uint32_t next;
-  };
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> heads_;
-  std::uint32_t free_ = kInvalidId;
+  std::vector<std::vector<Candidate>> buckets_;
   std::uint32_t first_ = kBuckets;
   std::size_t size_ = 0;
 };

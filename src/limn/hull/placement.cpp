@@ -1,8 +1,14 @@
 #include "limn/hull/placement.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace limn {
 namespace {
@@ -33,7 +39,8 @@ struct Split {
 Split split(const ActiveSet& active, const DVec3& normal) {
   const auto& n = active.normal;
   switch (active.count) {
-    case 0: return {normal, {}};
+    case 0:
+      return {normal, {}};
     case 1: {
       const double part = glm::dot(normal, n[0]);
       return {normal - part * n[0], {part}};
@@ -90,31 +97,69 @@ bool enter(ActiveSet& active, const DVec3& normal, double side, DVec3& point) {
 
 void PlacementPlanes::grow() {
   const std::size_t size = nx_.empty() ? 64 : 2 * nx_.size();
-  for (std::vector<double>* values : {&nx_, &ny_, &nz_, &offset_})
+  for (std::vector<float>* values : {&nx_, &ny_, &nz_, &offset_, &side_})
     values->resize(size);
 }
 
-std::size_t PlacementPlanes::most_violated(const DVec3& x, double& least) const {
+/// Fills the last group of lanes with half-spaces that everything is in.
+void PlacementPlanes::pad() {
+  for (std::size_t i = count_; i % kLanes != 0; ++i) {
+    nx_[i] = ny_[i] = nz_[i] = 0.0f;
+    offset_[i] = -std::numeric_limits<float>::max();
+  }
+}
+
+#if defined(__SSE2__)
+std::size_t PlacementPlanes::most_violated(const DVec3& x, float& least) {
+  pad();
+  const __m128 px = _mm_set1_ps(static_cast<float>(x.x));
+  const __m128 py = _mm_set1_ps(static_cast<float>(x.y));
+  const __m128 pz = _mm_set1_ps(static_cast<float>(x.z));
+  __m128 lowest = _mm_set1_ps(std::numeric_limits<float>::max());
+  for (std::size_t i = 0; i < count_; i += kLanes) {
+    const __m128 xy = _mm_add_ps(_mm_mul_ps(_mm_loadu_ps(&nx_[i]), px), _mm_mul_ps(_mm_loadu_ps(&ny_[i]), py));
+    const __m128 xyz = _mm_add_ps(xy, _mm_mul_ps(_mm_loadu_ps(&nz_[i]), pz));
+    const __m128 side = _mm_sub_ps(xyz, _mm_loadu_ps(&offset_[i]));
+    _mm_storeu_ps(&side_[i], side);
+    lowest = _mm_min_ps(lowest, side);
+  }
+  lowest = _mm_min_ps(lowest, _mm_shuffle_ps(lowest, lowest, _MM_SHUFFLE(1, 0, 3, 2)));
+  lowest = _mm_min_ps(lowest, _mm_shuffle_ps(lowest, lowest, _MM_SHUFFLE(2, 3, 0, 1)));
+  least = _mm_cvtss_f32(lowest);
+  for (std::size_t i = 0; i < count_; i += kLanes) {
+    const int equal = _mm_movemask_ps(_mm_cmpeq_ps(_mm_loadu_ps(&side_[i]), lowest));
+    if (equal != 0) return i + static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(equal)));
+  }
+  return 0;
+}
+#else
+std::size_t PlacementPlanes::most_violated(const DVec3& x, float& least) {
+  const Vec3 p(x);
   std::size_t worst = 0;
-  least = kInfinity;
+  least = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < count_; ++i) {
-    const double s = side(i, x);
-    if (s < least) {
-      least = s;
+    const float side = nx_[i] * p.x + ny_[i] * p.y + nz_[i] * p.z - offset_[i];
+    if (side < least) {
+      least = side;
       worst = i;
     }
   }
   return worst;
 }
+#endif
 
-bool nearest_point(const PlacementPlanes& planes, const DVec3& target, double tolerance, DVec3& point) {
+bool nearest_point(PlacementPlanes& planes, const DVec3& target, DVec3& point) {
   point = target;
+  if (planes.size() == 0) return true;
   ActiveSet active;
   const std::size_t most_steps = 4 * planes.size() + 16;
   for (std::size_t step = 0; step < most_steps; ++step) {
-    double side = 0.0;
-    const std::size_t worst = planes.most_violated(point, side);
-    if (side >= -tolerance) return true;
+    float rough = 0.0f;
+    const std::size_t worst = planes.most_violated(point, rough);
+    if (double{rough} >= -0.5 * kPlacementTolerance) return true;
+    // Far from the frame's middle floats may see what is not there.
+    const double side = planes.side(worst, point);
+    if (side >= 0.0) return glm::dot(point, point) < 1e4;
     if (!enter(active, planes.normal(worst), side, point)) return false;
   }
   return false;

@@ -7,38 +7,49 @@
 
 namespace limn {
 
-/// Half-spaces normal·x >= offset with unit normals, side by side for the processor's sake.
+/// Half-spaces normal·x >= offset with unit normals, side by side for the processor's sake, in a frame whose unit is
+/// about how far away answers are: floats are enough there.
 class PlacementPlanes {
  public:
   void clear() { count_ = 0; }
   std::size_t size() const { return count_; }
-  void add(const DVec3& normal, double offset) {
-    if (count_ == nx_.size()) grow();
+  void add(const Vec3& normal, float offset) {
+    if (count_ + kLanes > nx_.size()) grow();
     nx_[count_] = normal.x;
     ny_[count_] = normal.y;
     nz_[count_] = normal.z;
     offset_[count_++] = offset;
   }
-  DVec3 normal(std::size_t i) const { return {nx_[i], ny_[i], nz_[i]}; }
+
+  DVec3 normal(std::size_t i) const { return {double{nx_[i]}, double{ny_[i]}, double{nz_[i]}}; }
+  /// Distance of x into the half-space; negative outside of it.
   double side(std::size_t i, const DVec3& x) const {
-    return nx_[i] * x.x + ny_[i] * x.y + nz_[i] * x.z - offset_[i];
+    return double{nx_[i]} * x.x + double{ny_[i]} * x.y + double{nz_[i]} * x.z - double{offset_[i]};
   }
-  /// The half-space that x is farthest outside of, and by how much (negative; positive when in all).
-  std::size_t most_violated(const DVec3& x, double& side) const;
+  /// The half-space that x is farthest outside of (of equals the first), and its side in float. \pre size() > 0
+  std::size_t most_violated(const DVec3& x, float& side);
 
  private:
+  static constexpr std::size_t kLanes = 4;
   void grow();
-  std::vector<double> nx_, ny_, nz_, offset_;
+  void pad();
+
+  std::vector<float> nx_, ny_, nz_, offset_, side_;
   std::size_t count_ = 0;
 };
+
+/// How far outside a half-space the point of nearest_point() may be, in units of the frame, for points within a few of
+/// those: what floats leave open.
+inline constexpr double kPlacementTolerance = 1e-6;
 
 /// Finds the point of all half-spaces nearest to `target`.
 ///
 /// With the target far below along a cost's gradient, this is the linear program with ties broken towards a point: for
 /// target = m − (h/ε) g the minimum of g·x + ε|x − m|²/2h. Dual active sets (Goldfarb and Idnani 1983): each step adds
 /// the most violated half-space and lets go of what no longer holds the point back; at most three hold it at a time.
-/// \param tolerance  how far outside a half-space the point may be
 /// \return whether there is such a point; also false, which wrongs nobody, when rounding stops the steps
-bool nearest_point(const PlacementPlanes& planes, const DVec3& target, double tolerance, DVec3& point);
+/// Cost: some ten steps of one pass over the half-spaces. Same input, same bits.
+/// Sander et al. 2000, section 3; docs/hull.md
+bool nearest_point(PlacementPlanes& planes, const DVec3& target, DVec3& point);
 
 }  // namespace limn

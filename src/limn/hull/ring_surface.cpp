@@ -1,9 +1,11 @@
 #include "limn/hull/ring_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <unordered_set>
 
 namespace limn {
 namespace {
@@ -99,8 +101,8 @@ HullStep RingSurface::collapse_step(VertexId kept, VertexId removed, const Vec3&
   const std::size_t place = find(kept, removed);
   const RingLink& left = links[after(place, links.size())];
   const RingLink& right = links[before(place, links.size())];
-  return {HullStep::Kind::kCollapse, kept,           removed, left.vertex, right.vertex, links[place].face, right.face,
-          positions_[kept],          after_collapse};
+  return {HullStep::Kind::kCollapse, kept,       removed,          left.vertex,   right.vertex,
+          links[place].face,         right.face, positions_[kept], after_collapse};
 }
 
 HullStep RingSurface::flip_step(VertexId a, VertexId b) const {
@@ -113,9 +115,7 @@ bool RingSurface::can_collapse(VertexId kept, VertexId removed) const {
   const std::span<const RingLink> a = ring(kept);
   const std::span<const RingLink> b = ring(removed);
   const std::size_t place = find(kept, removed);
-  const VertexId left = a[after(place, a.size())].vertex;
-  const VertexId right = a[before(place, a.size())].vertex;
-  if (degree(left) <= 3 || degree(right) <= 3) return false;
+  if (degree(a[after(place, a.size())].vertex) <= 3 || degree(a[before(place, a.size())].vertex) <= 3) return false;
   int common = 0;
   for (const RingLink& x : a) {
     for (const RingLink& y : b)
@@ -134,8 +134,19 @@ bool RingSurface::can_flip(VertexId a, VertexId b) const {
 
 void RingSurface::apply(const HullStep& step) {
   switch (step.kind) {
-    case HullStep::Kind::kCollapse: collapse(step); break;
-    case HullStep::Kind::kFlip: flip(step); break;
+    case HullStep::Kind::kCollapse:
+      collapse(step);
+      break;
+    case HullStep::Kind::kFlip:
+      flip(step);
+      break;
+    case HullStep::Kind::kCut:
+      cut(step);
+      break;
+    case HullStep::Kind::kFill:
+    case HullStep::Kind::kDrop:
+      remove_part(step.kept);
+      break;
     case HullStep::Kind::kMove:
       positions_[step.kept] = step.after;
       update_planes(step.kept);
@@ -181,6 +192,77 @@ void RingSurface::flip(const HullStep& step) {
   update_plane(b, link(b, step.left), step.right);
 }
 
+VertexId RingSurface::waist(VertexId a, VertexId b) const {
+  const std::span<const RingLink> links = ring(a);
+  const std::size_t place = find(a, b);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (i == place || i == after(place, links.size()) || i == before(place, links.size())) continue;
+    if (find(b, links[i].vertex) < degree(b)) return links[i].vertex;
+  }
+  return kInvalidId;
+}
+
+HullStep RingSurface::cut_step(VertexId a, VertexId b, VertexId c) const {
+  const auto vertices = static_cast<VertexId>(positions_.size());
+  const auto faces = static_cast<FaceId>(planes_.size());
+  return {HullStep::Kind::kCut, a, b, c, vertices, faces, faces + 1, positions_[a], positions_[a]};
+}
+
+void RingSurface::cut(const HullStep& step) {
+  for (const VertexId v : {step.kept, step.removed, step.left}) {
+    positions_.push_back(positions_[v]);
+    slots_.push_back({static_cast<std::uint32_t>(links_.size()), 0, 0});
+  }
+  planes_.resize(planes_.size() + 2);
+  for (int corner = 0; corner < 3; ++corner)
+    cut_ring(step, corner);
+  update_plane(step.kept, link(step.kept, step.left), step.removed);
+  update_plane(step.right, link(step.right, step.right + 1), step.right + 2);
+  live_faces_ += 2;
+}
+
+/// Parts the ring of one corner of the cut: what lies to the left of the way through it stays.
+void RingSurface::cut_ring(const HullStep& step, int corner) {
+  const std::array<VertexId, 3> old{step.kept, step.removed, step.left};
+  const std::size_t here = static_cast<std::size_t>(corner), next = (here + 1) % 3, last = (here + 2) % 3;
+  const VertexId v = old[here];
+  const VertexId copy = step.right + static_cast<VertexId>(corner);
+  const std::span<const RingLink> links = ring(v);
+  std::vector<RingLink> left, right;
+  std::size_t i = find(v, old[next]);
+  for (; links[i].vertex != old[last]; i = after(i, links.size()))
+    left.push_back(links[i]);
+  left.push_back({old[last], step.face_left});
+  right.push_back({step.right + static_cast<VertexId>(last), links[i].face});
+  for (i = after(i, links.size()); links[i].vertex != old[next]; i = after(i, links.size())) {
+    right.push_back(links[i]);
+    link(links[i].vertex, v).vertex = copy;
+  }
+  right.push_back({step.right + static_cast<VertexId>(next), step.face_right});
+  store_ring(v, left);
+  store_ring(copy, right);
+}
+
+std::vector<VertexId> RingSurface::part_of(VertexId v) const {
+  std::vector<VertexId> part{v};
+  std::unordered_set<VertexId> seen{v};
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    for (const RingLink& link : ring(part[i])) {
+      if (seen.insert(link.vertex).second) part.push_back(link.vertex);
+    }
+  }
+  return part;
+}
+
+void RingSurface::remove_part(VertexId v) {
+  std::size_t corners = 0;
+  for (const VertexId gone : part_of(v)) {
+    corners += slots_[gone].degree;
+    slots_[gone].degree = 0;
+  }
+  live_faces_ -= corners / 3;
+}
+
 RingLink& RingSurface::link(VertexId v, VertexId neighbour) {
   return links_[slots_[v].begin + find(v, neighbour)];
 }
@@ -214,8 +296,8 @@ void RingSurface::store_ring(VertexId v, std::span<const RingLink> ring) {
 
 void RingSurface::update_plane(VertexId v, const RingLink& link, VertexId next) {
   const DVec3 origin(positions_[v]);
-  const DVec3 normal = glm::cross((DVec3(positions_[link.vertex]) - origin) * scale_,
-                                  (DVec3(positions_[next]) - origin) * scale_);
+  const DVec3 normal =
+      glm::cross((DVec3(positions_[link.vertex]) - origin) * scale_, (DVec3(positions_[next]) - origin) * scale_);
   const double length = glm::length(normal);
   const double inverse = length > 0.0 ? 1.0 / length : 0.0;
   planes_[link.face] = {Vec3(normal * inverse), static_cast<float>(0.5 * length)};

@@ -32,10 +32,12 @@ class RingSurface {
   RingSurface(const Shell& shell, bool flip);
 
   std::size_t vertex_count() const { return positions_.size(); }
+  std::size_t face_ids() const { return planes_.size(); }
   std::size_t live_faces() const { return live_faces_; }
   bool alive(VertexId v) const { return slots_[v].degree != 0; }
   std::uint32_t degree(VertexId v) const { return slots_[v].degree; }
   std::span<const RingLink> ring(VertexId v) const { return {links_.data() + slots_[v].begin, slots_[v].degree}; }
+  std::span<const Vec3> positions() const { return positions_; }
   const Vec3& position(VertexId v) const { return positions_[v]; }
   const FacePlane& plane(FaceId f) const { return planes_[f]; }
   /// Place of a neighbour in the ring of v; degree(v) where it is none.
@@ -52,8 +54,13 @@ class RingSurface {
   /// Whether the surface stays a closed manifold without double edges when the edge collapses.
   bool can_collapse(VertexId kept, VertexId removed) const;
   bool can_flip(VertexId a, VertexId b) const;
+  /// A third vertex that both ends of an edge are joined to, though it is no face: kInvalidId where there is none.
+  VertexId waist(VertexId a, VertexId b) const;
+  HullStep cut_step(VertexId a, VertexId b, VertexId c) const;
+  /// The vertices of the part that v belongs to, v first.
+  std::vector<VertexId> part_of(VertexId v) const;
 
-  /// Carries out a step made by the functions above, or a move. \pre can_collapse or can_flip, as the kind may be
+  /// Carries out a step. \pre it fits: can_collapse or can_flip, a waist, a live vertex
   void apply(const HullStep& step);
 
   /// The live faces as corners, in ascending order of their ids; `ids` gets those.
@@ -69,6 +76,9 @@ class RingSurface {
   void compute_all_planes();
   void collapse(const HullStep& step);
   void flip(const HullStep& step);
+  void remove_part(VertexId v);
+  void cut(const HullStep& step);
+  void cut_ring(const HullStep& step, int corner);
   RingLink& link(VertexId v, VertexId neighbour);
   RingLink erase(VertexId v, VertexId neighbour);
   void insert_after(VertexId v, VertexId neighbour, const RingLink& link);

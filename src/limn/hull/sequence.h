@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "limn/base/result.h"
@@ -16,11 +17,12 @@ namespace limn {
 /// each member of which encloses those before it (Sander et al. 2000, section 3). Level 0 is the shell itself, level
 /// i > 0 what the first i outer steps make of it, level -i what the first i inner ones do.
 ///
-/// Every member is a closed manifold over the shell's vertex and face ids. That is checked when a sequence is made;
-/// that the steps move outwards or inwards is not: it is what their maker proves (progressive_hull.h).
+/// Every member is a closed manifold over the shell's vertex and face ids, and further ones where steps cut the
+/// surface. That is checked when a sequence is made; that the steps move outwards or inwards is not: it is what their
+/// maker proves (progressive_hull.h).
 class HullSequence {
  public:
-  /// \param outer, inner  as build_hull() gives them with keep_steps, both in the shell's orientation; may be empty
+  /// \param outer, inner  as build_hull() gives them with keep_steps; may be empty
   /// \param uvs           one a vertex of the shell, or none
   /// Cost: linear. Same bits for any number of threads.
   /// Errors: kInvalidArgument, naming the step, where one does not fit the surface that those before it made, or where
@@ -46,12 +48,13 @@ class HullSequence {
 
   /// A member as a mesh, its vertices and faces in ascending order of their ids. Normals are smooth, of its own faces;
   /// uvs, where the sequence has any, those of the vertices that stayed.
-  /// \param vertex_ids, face_ids  get the shell's ids of its vertices and faces; may be nullptr
-  /// Same bits whichever way the level was come to. Cost: linear in the shell and the steps from it.
-  /// \pre innermost() <= level <= outermost()
+  /// \param vertex_ids, face_ids  get the ids of its vertices and faces, the shell's where they are below its counts,
+  /// else of what cuts made on the way; may be nullptr Same bits whichever way the level was come to. Cost: linear in
+  /// the shell and the steps from it. \pre innermost() <= level <= outermost()
   Mesh mesh_at(int level, std::vector<VertexId>* vertex_ids = nullptr, std::vector<FaceId>* face_ids = nullptr) const;
 
-  /// One a vertex of the shell: the vertex of the member (by its shell id) that it became part of.
+  /// One a vertex of the shell: the vertex of the member (by its id) that it became part of; kInvalidId where it was of
+  /// a part that vanished. Where a cut doubled a vertex, the one that kept the id.
   /// \pre innermost() <= level <= outermost()
   std::vector<VertexId> heirs_at(int level) const;
 
@@ -62,13 +65,20 @@ class HullSequence {
     std::uint32_t corner;
     VertexId from, to;
   };
-  /// One way from the shell.
+  /// One way from the shell. Offsets are one more than steps.
   struct Way {
     std::vector<HullStep> steps;
-    std::vector<std::uint32_t> faces{};           ///< one more than steps: faces after so many
-    std::vector<std::uint32_t> change_offsets{};  ///< one more than steps, into changes
-    std::vector<CornerChange> changes{};
+    std::vector<std::uint32_t> faces{};   ///< one more than steps: faces after so many
+    std::vector<std::uint32_t> fewest{};  ///< the fewest so far, of levels that are hulls
+    std::vector<std::uint32_t> corner_offsets{};
+    std::vector<CornerChange> corners{};
+    std::vector<std::uint32_t> killed_offsets{};
+    std::vector<FaceId> killed{};
+    std::vector<std::uint32_t> vanished_offsets{};
+    std::vector<VertexId> vanished{};
+    std::size_t cuts = 0;
   };
+  static Result<void> go(const Shell& shell, bool inwards, Way& way);
 
   HullSequence() = default;
 
@@ -92,15 +102,15 @@ class HullCursor {
   /// \pre innermost() <= level <= outermost()
   void go_to(int level);
 
-  /// By the shell's ids. Places of vertices and corners of faces that are gone are what they were when they went.
+  /// By their ids. What is said of vertices and faces that are not there is of no account.
   std::span<const Vec3> positions() const { return positions_; }
   std::span<const Triangle> faces() const { return faces_; }
   bool is_alive(FaceId face) const { return alive_[face] != 0; }
 
  private:
-  void take(const HullSequence::Way& way, std::size_t step);
-  void take_back(const HullSequence::Way& way, std::size_t step);
-  void set_alive(const HullStep& step, bool alive);
+  void take(const HullSequence::Way& way, bool inwards, std::size_t number);
+  void take_back(const HullSequence::Way& way, std::size_t number);
+  void set_alive(FaceId face, bool alive);
 
   const HullSequence* sequence_;
   int level_ = 0;

@@ -32,11 +32,21 @@ struct Header {
 };
 static_assert(sizeof(Header) == 40);
 
-/// Kinds in the file: the lowest digit, to base 3, of a step's number.
-constexpr std::uint32_t kKinds = 3;
+/// In the file a step's number is its subject times the kinds there are, plus its kind's place here.
+constexpr std::array kKinds{HullStep::Kind::kCollapse, HullStep::Kind::kMove, HullStep::Kind::kFlip,
+                            HullStep::Kind::kCut,      HullStep::Kind::kFill, HullStep::Kind::kDrop};
 
-std::uint32_t kind_number(HullStep::Kind kind) {
-  return kind == HullStep::Kind::kCollapse ? 0 : kind == HullStep::Kind::kMove ? 1 : 2;
+std::uint64_t number_of(HullStep::Kind kind) {
+  return static_cast<std::uint64_t>(std::find(kKinds.begin(), kKinds.end(), kind) - kKinds.begin());
+}
+
+/// Whether the step is stored with a place: where its vertex goes, or a cavity is seen from.
+bool has_place(HullStep::Kind kind) {
+  return kind == HullStep::Kind::kCollapse || kind == HullStep::Kind::kMove || kind == HullStep::Kind::kFill;
+}
+
+bool is_of_an_edge(HullStep::Kind kind) {
+  return kind == HullStep::Kind::kCollapse || kind == HullStep::Kind::kFlip;
 }
 
 void put_number(std::vector<std::byte>& bytes, std::uint64_t value) {
@@ -70,18 +80,27 @@ void put_faces(std::vector<std::byte>& bytes, std::span<const Triangle> faces) {
   }
 }
 
+/// The corner of a live face from which a side runs from a to b. \pre there is one
+std::uint64_t corner_of_edge(const StepReplay& replay, FaceId face, VertexId a) {
+  const Triangle& t = replay.faces()[face];
+  return 3 * std::uint64_t{face} + (t[0] == a ? 0 : t[1] == a ? 1 : 2);
+}
+
 /// Steps name the corner their edge starts from, which the surface at the time tells the rest of.
-void put_steps(std::vector<std::byte>& bytes, const Shell& shell, std::span<const HullStep> steps) {
-  StepReplay replay(shell.positions, shell.faces);
-  std::vector<CornerChange> changes;
-  for (const HullStep& step : steps) {
+void put_steps(std::vector<std::byte>& bytes, const Shell& shell, bool inwards, std::span<const HullStep> steps) {
+  StepReplay replay(shell.positions, inwards ? turned_faces(shell.faces) : shell.faces);
+  StepChanges changes;
+  for (const HullStep& given : steps) {
+    const HullStep step = inwards ? turned_step(given) : given;
     std::uint64_t subject = step.kept;
-    if (step.kind != HullStep::Kind::kMove) {
-      const Triangle& t = replay.faces()[step.face_left];
-      subject = 3 * std::uint64_t{step.face_left} + (t[0] == step.kept ? 0 : t[1] == step.kept ? 1 : 2);
+    if (step.kind == HullStep::Kind::kCut) {
+      subject = replay.corner_running(step.kept, step.removed);
+    } else if (is_of_an_edge(step.kind)) {
+      subject = corner_of_edge(replay, step.face_left, step.kept);
     }
-    put_number(bytes, kKinds * subject + kind_number(step.kind));
-    if (step.kind != HullStep::Kind::kFlip) put_raw(bytes, std::span(&step.after, 1));
+    put_number(bytes, kKinds.size() * subject + number_of(step.kind));
+    if (step.kind == HullStep::Kind::kCut) put_number(bytes, step.left);
+    if (has_place(step.kind)) put_raw(bytes, std::span(&step.after, 1));
     replay.apply(step, changes);
     changes.clear();
   }
@@ -134,14 +153,17 @@ bool read_faces(Reader& reader, std::vector<Triangle>& faces) {
 /// One step, on the surface as it is then; nothing when there can be no such step.
 std::optional<HullStep> read_step(Reader& reader, StepReplay& replay) {
   const std::optional<std::uint64_t> number = reader.number();
-  if (!number || *number / kKinds >= kInvalidId) return std::nullopt;
-  constexpr std::array kByNumber{HullStep::Kind::kCollapse, HullStep::Kind::kMove, HullStep::Kind::kFlip};
-  const HullStep::Kind kind = kByNumber[*number % kKinds];
-  const auto subject = static_cast<std::uint32_t>(*number / kKinds);
+  if (!number || *number / kKinds.size() >= kInvalidId) return std::nullopt;
+  const HullStep::Kind kind = kKinds[*number % kKinds.size()];
+  const auto subject = static_cast<std::uint32_t>(*number / kKinds.size());
+  const std::optional<std::uint64_t> third = kind == HullStep::Kind::kCut ? reader.number() : 0;
+  if (!third || *third >= kInvalidId) return std::nullopt;
   Vec3 after(0);
-  if (kind != HullStep::Kind::kFlip && !reader.raw(std::span(&after, 1))) return std::nullopt;
-  const std::optional<HullStep> step =
-      kind == HullStep::Kind::kMove ? replay.move_of(subject, after) : replay.step_at(kind, subject, after);
+  if (has_place(kind) && !reader.raw(std::span(&after, 1))) return std::nullopt;
+  const std::optional<HullStep> step = kind == HullStep::Kind::kCut
+                                           ? replay.cut_at(subject, static_cast<VertexId>(*third))
+                                       : is_of_an_edge(kind) ? replay.step_at(kind, subject, after)
+                                                             : replay.step_of(kind, subject, after);
   if (!step || !replay.objection(*step).empty()) return std::nullopt;
   return step;
 }
@@ -179,8 +201,8 @@ std::vector<std::byte> hull_sequence_bytes(const HullSequence& sequence) {
   put_raw(bytes, std::span(shell.positions));
   put_raw(bytes, sequence.uvs());
   put_faces(bytes, shell.faces);
-  put_steps(bytes, shell, sequence.outer_steps());
-  put_steps(bytes, shell, sequence.inner_steps());
+  put_steps(bytes, shell, false, sequence.outer_steps());
+  put_steps(bytes, shell, true, sequence.inner_steps());
   header.hash = hash_of_file(header, std::span(bytes).subspan(sizeof(Header)));
   std::memcpy(bytes.data(), &header, sizeof(Header));
   return bytes;
@@ -219,8 +241,8 @@ Result<HullSequence> parse_hull_sequence(std::span<const std::byte> bytes, const
 
   std::array<std::vector<HullStep>, 2> ways;
   for (std::size_t way = 0; way < 2; ++way) {
-    StepReplay replay(shell.positions, shell.faces);
-    std::vector<CornerChange> changes;
+    StepReplay replay(shell.positions, way == 0 ? shell.faces : turned_faces(shell.faces));
+    StepChanges changes;
     const std::uint32_t count = way == 0 ? header.outer_steps : header.inner_steps;
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::optional<HullStep> step = read_step(reader, replay);
@@ -230,7 +252,7 @@ Result<HullSequence> parse_hull_sequence(std::span<const std::byte> bytes, const
       }
       replay.apply(*step, changes);
       changes.clear();
-      ways[way].push_back(*step);
+      ways[way].push_back(way == 0 ? *step : turned_step(*step));
     }
   }
   if (reader.left() != 0) return unreadable({}, "the hull sequence has bytes to spare");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 namespace limn {
 namespace {
@@ -98,6 +99,21 @@ bool is_closed_manifold(std::size_t vertices, std::span<const Triangle> faces) {
   return true;
 }
 
+std::vector<Triangle> turned_faces(std::span<const Triangle> faces) {
+  std::vector<Triangle> turned(faces.begin(), faces.end());
+  for (Triangle& t : turned)
+    std::swap(t[1], t[2]);
+  return turned;
+}
+
+HullStep turned_step(const HullStep& step) {
+  HullStep turned = step;
+  if (step.kind != HullStep::Kind::kCollapse && step.kind != HullStep::Kind::kFlip) return turned;
+  std::swap(turned.left, turned.right);
+  std::swap(turned.face_left, turned.face_right);
+  return turned;
+}
+
 StepReplay::StepReplay(std::vector<Vec3> positions, std::vector<Triangle> faces)
     : positions_(std::move(positions)),
       faces_(std::move(faces)),
@@ -131,17 +147,31 @@ std::optional<HullStep> StepReplay::step_at(HullStep::Kind kind, std::uint32_t c
     other = next_[other];
   } while (other != first_[step.removed]);
   step.before = positions_[step.kept];
-  step.after = kind == HullStep::Kind::kFlip ? step.before : after;
+  step.after = kind == HullStep::Kind::kCollapse ? after : step.before;
   return step;
 }
 
-std::optional<HullStep> StepReplay::move_of(VertexId vertex, const Vec3& after) const {
+std::optional<HullStep> StepReplay::cut_at(std::uint32_t corner, VertexId third) const {
+  if (corner / 3 >= faces_.size() || !is_alive(corner / 3)) return std::nullopt;
+  HullStep step;
+  step.kind = HullStep::Kind::kCut;
+  step.kept = faces_[corner / 3][corner % 3];
+  step.removed = faces_[corner / 3][(corner + 1) % 3];
+  step.left = third;
+  step.right = static_cast<VertexId>(positions_.size());
+  step.face_left = static_cast<FaceId>(faces_.size());
+  step.face_right = step.face_left + 1;
+  step.before = step.after = positions_[step.kept];
+  return step;
+}
+
+std::optional<HullStep> StepReplay::step_of(HullStep::Kind kind, VertexId vertex, const Vec3& after) const {
   if (vertex >= positions_.size() || first_[vertex] == kInvalidId) return std::nullopt;
   HullStep step;
-  step.kind = HullStep::Kind::kMove;
+  step.kind = kind;
   step.kept = vertex;
   step.before = positions_[vertex];
-  step.after = after;
+  step.after = kind == HullStep::Kind::kDrop ? step.before : after;
   return step;
 }
 
@@ -158,9 +188,14 @@ std::string_view StepReplay::objection(const HullStep& step) {
   switch (step.kind) {
     case HullStep::Kind::kMove:
       return {};
+    case HullStep::Kind::kFill:
+    case HullStep::Kind::kDrop:
+      return faces_of_part(step.kept) == live_faces_ ? "nothing would be left" : std::string_view{};
     case HullStep::Kind::kCollapse:
     case HullStep::Kind::kFlip:
       return edge_objection(step);
+    case HullStep::Kind::kCut:
+      return cut_objection(step);
   }
   return "it is of no known kind";
 }
@@ -177,6 +212,36 @@ std::string_view StepReplay::edge_objection(const HullStep& step) {
   }
   if (common_neighbours(step.kept, step.removed) != 2) return "its collapse would double an edge";
   if (degree(step.left) < 4 || degree(step.right) < 4) return "its collapse would flatten a tetrahedron";
+  return {};
+}
+
+std::uint32_t StepReplay::corner_running(VertexId a, VertexId b) const {
+  std::uint32_t corner = first_[a];
+  do {
+    if (faces_[corner / 3][next_corner(corner) % 3] == b) return corner;
+    corner = next_[corner];
+  } while (corner != first_[a]);
+  return kInvalidId;
+}
+
+std::string_view StepReplay::cut_objection(const HullStep& step) const {
+  const std::array<VertexId, 3> corners{step.kept, step.removed, step.left};
+  for (const VertexId v : corners) {
+    if (v >= positions_.size() || first_[v] == kInvalidId) return "its edges are not there";
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VertexId a = corners[i], b = corners[(i + 1) % 3], c = corners[(i + 2) % 3];
+    if (a == b) return "its edges are not there";
+    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
+      const std::uint32_t corner = corner_running(from, to);
+      if (corner == kInvalidId) return "its edges are not there";
+      if (faces_[corner / 3][(corner + 2) % 3] == c) return "it would cut off a single face";
+    }
+  }
+  constexpr std::size_t kMostFaces = kInvalidId / 3 - 2;
+  if (step.right != positions_.size() || step.face_left != faces_.size() || step.face_right != step.face_left + 1 ||
+      faces_.size() > kMostFaces)
+    return "its new vertices or faces do not continue the others";
   return {};
 }
 
@@ -207,12 +272,7 @@ std::size_t StepReplay::degree(VertexId v) const {
 }
 
 bool StepReplay::are_joined(VertexId a, VertexId b) const {
-  std::uint32_t corner = first_[a];
-  do {
-    if (faces_[corner / 3][(corner + 1) % 3] == b) return true;
-    corner = next_[corner];
-  } while (corner != first_[a]);
-  return false;
+  return corner_running(a, b) != kInvalidId;
 }
 
 void StepReplay::link(std::uint32_t corner, VertexId v) {
@@ -233,38 +293,132 @@ void StepReplay::unlink(std::uint32_t corner, VertexId v) {
   if (first_[v] == corner) first_[v] = next_[corner] == corner ? kInvalidId : next_[corner];
 }
 
-void StepReplay::give(std::uint32_t corner, VertexId to, std::vector<CornerChange>& changes) {
+void StepReplay::give(std::uint32_t corner, VertexId to, StepChanges& changes) {
   VertexId& vertex = faces_[corner / 3][corner % 3];
   if (vertex == to) return;
-  changes.push_back({corner, vertex, to});
+  changes.corners.push_back({corner, vertex, to});
   unlink(corner, vertex);
   vertex = to;
   link(corner, to);
 }
 
-void StepReplay::kill(FaceId face) {
+void StepReplay::kill(FaceId face, StepChanges& changes) {
   for (std::uint32_t c = 0; c < 3; ++c)
     unlink(3 * face + c, faces_[face][c]);
   alive_[face] = 0;
   --live_faces_;
+  changes.killed.push_back(face);
 }
 
-void StepReplay::apply(const HullStep& step, std::vector<CornerChange>& changes) {
-  if (step.kind == HullStep::Kind::kFlip) {
-    const Triangle left{step.kept, step.right, step.left}, right{step.removed, step.left, step.right};
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      give(3 * step.face_left + c, left[c], changes);
-      give(3 * step.face_right + c, right[c], changes);
-    }
-    return;
+void StepReplay::apply(const HullStep& step, StepChanges& changes) {
+  switch (step.kind) {
+    case HullStep::Kind::kMove:
+      positions_[step.kept] = step.after;
+      break;
+    case HullStep::Kind::kFlip:
+      flip(step, changes);
+      break;
+    case HullStep::Kind::kCollapse:
+      collapse(step, changes);
+      break;
+    case HullStep::Kind::kCut:
+      cut(step, changes);
+      break;
+    case HullStep::Kind::kFill:
+    case HullStep::Kind::kDrop:
+      remove_part(step.kept, changes);
+      break;
   }
-  if (step.kind == HullStep::Kind::kCollapse) {
-    kill(step.face_left);
-    kill(step.face_right);
-    while (first_[step.removed] != kInvalidId)
-      give(first_[step.removed], step.kept, changes);
+}
+
+void StepReplay::flip(const HullStep& step, StepChanges& changes) {
+  const Triangle left{step.kept, step.right, step.left}, right{step.removed, step.left, step.right};
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    give(3 * step.face_left + c, left[c], changes);
+    give(3 * step.face_right + c, right[c], changes);
   }
+}
+
+void StepReplay::collapse(const HullStep& step, StepChanges& changes) {
+  kill(step.face_left, changes);
+  kill(step.face_right, changes);
+  while (first_[step.removed] != kInvalidId)
+    give(first_[step.removed], step.kept, changes);
   positions_[step.kept] = step.after;
+}
+
+/// At each corner of the cut, the faces from the way out, counter-clockwise to the way in, go to the corner's copy.
+void StepReplay::cut(const HullStep& step, StepChanges& changes) {
+  const std::array<VertexId, 3> old{step.kept, step.removed, step.left};
+  std::vector<std::uint32_t> right_of_it[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VertexId v = old[i];
+    for (VertexId next = old[(i + 2) % 3]; next != old[(i + 1) % 3];) {
+      const std::uint32_t corner = corner_running(v, next);
+      right_of_it[i].push_back(corner);
+      next = faces_[corner / 3][(corner + 2) % 3];
+    }
+  }
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const VertexId copy = step.right + i;
+    positions_.push_back(positions_[old[i]]);
+    first_.push_back(kInvalidId);
+    mark_.push_back(0);
+    for (const std::uint32_t corner : right_of_it[i])
+      give(corner, copy, changes);
+  }
+  faces_.push_back({step.kept, step.left, step.removed});
+  faces_.push_back({step.right, step.right + 1, step.right + 2});
+  for (const FaceId face : {step.face_left, step.face_right}) {
+    alive_.push_back(1);
+    ++live_faces_;
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      next_.push_back(0);
+      previous_.push_back(0);
+      link(3 * face + c, faces_[face][c]);
+    }
+  }
+}
+
+/// Everything that hangs together with the vertex.
+void StepReplay::remove_part(VertexId vertex, StepChanges& changes) {
+  std::vector<VertexId>& part = changes.vanished;
+  const std::size_t begin = part.size();
+  ++marks_;
+  const auto meet = [&](VertexId v) {
+    if (mark_[v] == marks_) return;
+    mark_[v] = marks_;
+    part.push_back(v);
+  };
+  meet(vertex);
+  for (std::size_t i = begin; i < part.size(); ++i) {
+    while (first_[part[i]] != kInvalidId) {
+      const FaceId face = first_[part[i]] / 3;
+      for (const VertexId v : faces_[face])
+        meet(v);
+      kill(face, changes);
+    }
+  }
+}
+
+/// How many faces hang together with the vertex.
+std::size_t StepReplay::faces_of_part(VertexId vertex) {
+  std::vector<VertexId> part{vertex};
+  std::size_t corners = 0;
+  mark_[vertex] = ++marks_;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    std::uint32_t corner = first_[part[i]];
+    do {
+      ++corners;
+      const VertexId next = faces_[corner / 3][(corner + 1) % 3];
+      if (mark_[next] != marks_) {
+        mark_[next] = marks_;
+        part.push_back(next);
+      }
+      corner = next_[corner];
+    } while (corner != first_[part[i]]);
+  }
+  return corners / 3;
 }
 
 }  // namespace limn

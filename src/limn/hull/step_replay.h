@@ -22,8 +22,25 @@ struct CornerChange {
 /// in range. Cost: a few linear passes.
 bool is_closed_manifold(std::size_t vertices, std::span<const Triangle> faces);
 
+/// What a step changes of a surface's faces.
+struct StepChanges {
+  std::vector<CornerChange> corners;  ///< in order
+  std::vector<FaceId> killed;         ///< faces
+  std::vector<VertexId> vanished;     ///< vertices that go without an heir
+  void clear() {
+    corners.clear();
+    killed.clear();
+    vanished.clear();
+  }
+};
+
+/// Inner hulls are made from the shell turned inside out. turned_faces: each face (a, c, b). turned_step: a step in the
+/// shell's orientation as it is on the turned one, and back (hull_step.h); cuts are given on the turned one already.
+std::vector<Triangle> turned_faces(std::span<const Triangle> faces);
+HullStep turned_step(const HullStep& step);
+
 /// Carries out steps on a surface, whoever made them: each is looked at first, so that the surface stays a closed
-/// manifold and no index leaves its range.
+/// manifold and no index leaves its range. Cuts make vertices and faces at the end of the lists.
 class StepReplay {
  public:
   /// \pre is_closed_manifold(positions.size(), faces)
@@ -35,29 +52,41 @@ class StepReplay {
   bool is_alive(FaceId face) const { return alive_[face] != 0; }
 
   /// The step over the edge that starts at a corner of a live face: kept → removed. Nothing where there is no such
-  /// corner. \pre kind is not kMove
+  /// corner. \pre kind is kCollapse or kFlip
   std::optional<HullStep> step_at(HullStep::Kind kind, std::uint32_t corner, const Vec3& after) const;
-  /// Nothing where there is no such vertex alive.
-  std::optional<HullStep> move_of(VertexId vertex, const Vec3& after) const;
+  /// The cut along that edge and on to a third vertex.
+  std::optional<HullStep> cut_at(std::uint32_t corner, VertexId third) const;
+  /// The step that moves a vertex, or takes the part away that it belongs to. Nothing where there is no such vertex
+  /// alive. \pre kind is kMove, kFill or kDrop
+  std::optional<HullStep> step_of(HullStep::Kind kind, VertexId vertex, const Vec3& after) const;
+
+  /// The corner of `a` from which a side runs to b; kInvalidId where they are not joined. \pre a is alive
+  std::uint32_t corner_running(VertexId a, VertexId b) const;
 
   /// Why the step cannot be taken here; empty when it can. Whether it moves the surface outwards is not asked.
   /// Cost: in proportion to the faces around the edge.
   std::string_view objection(const HullStep& step);
 
-  /// \param changes  what it changes is added here, in order
+  /// \param changes  what it changes is added here
   /// \pre objection(step).empty()
-  void apply(const HullStep& step, std::vector<CornerChange>& changes);
+  void apply(const HullStep& step, StepChanges& changes);
 
  private:
   bool runs(FaceId face, VertexId a, VertexId b, VertexId c) const;
   std::string_view edge_objection(const HullStep& step);
+  std::string_view cut_objection(const HullStep& step) const;
+  void flip(const HullStep& step, StepChanges& changes);
+  void collapse(const HullStep& step, StepChanges& changes);
+  void cut(const HullStep& step, StepChanges& changes);
+  void remove_part(VertexId vertex, StepChanges& changes);
   std::size_t common_neighbours(VertexId a, VertexId b);
   std::size_t degree(VertexId v) const;
+  std::size_t faces_of_part(VertexId vertex);
   bool are_joined(VertexId a, VertexId b) const;
   void link(std::uint32_t corner, VertexId v);
   void unlink(std::uint32_t corner, VertexId v);
-  void give(std::uint32_t corner, VertexId to, std::vector<CornerChange>& changes);
-  void kill(FaceId face);
+  void give(std::uint32_t corner, VertexId to, StepChanges& changes);
+  void kill(FaceId face, StepChanges& changes);
 
   std::vector<Vec3> positions_;
   std::vector<Triangle> faces_;
