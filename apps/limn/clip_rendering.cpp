@@ -4,7 +4,7 @@
 
 namespace limn::cli {
 
-void add_clip_options(OptionTable& table, ClipFlags& flags) {
+void add_clip_options(OptionTable& table, ClipDrawFlags& flags) {
   table.choice("--aa", flags.smoothing,
                {{"none", ClipSmoothing::kNone}, {"lines", ClipSmoothing::kLines}, {"msaa", ClipSmoothing::kMsaa}},
                "outlines of --method clip: msaa (default): 4 samples; lines: soft lines");
@@ -21,7 +21,7 @@ Result<ClipAsset> load_clip_asset(const std::string& path) {
 }
 
 Result<ClipPicture> draw_clip_asset(gl::Context& context, const ClipAsset& asset, const Camera& camera,
-                                    const RenderOptions& options, const ClipFlags& flags) {
+                                    const RenderOptions& options, const ClipDrawFlags& flags) {
   auto model = ClipModel::create(context, asset);
   if (!model) return tl::unexpected(model.error());
   RenderOptions drawing = options;

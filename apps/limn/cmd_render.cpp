@@ -28,7 +28,7 @@ struct RenderFlags {
   std::uint64_t budget = 0;
   CameraOptions camera;
   LevelFlags levels;
-  ClipFlags clip;
+  ClipDrawFlags clip;
   Size size{1024, 1024};
   RenderOptions options;
   bool level_lines = false;

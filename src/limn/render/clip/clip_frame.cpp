@@ -9,6 +9,8 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "limn/base/parallel.h"
+
 namespace limn {
 namespace {
 
@@ -148,30 +150,43 @@ float ClipFrame::vertex_error_px() const {
 }
 
 void ClipFrame::find_silhouette(ClipLevel& level, const Placed& placed, ClipDrawn& drawn) {
+  // Two things at once: the silhouette's loops, and the faces seen edge on.
+  parallel_for(options_.exact ? 2 : 1, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i == 0) {
+        find_loops(level, placed, drawn);
+      } else {
+        find_edge_on(level, placed);
+      }
+    }
+  });
+  drawn.silhouette_edges = loops_.edge_count;
+  drawn.stencil_triangles = loops_.triangle_count();
+  drawn.edge_on_faces = edge_on_.size() / 3;
+}
+
+void ClipFrame::find_loops(ClipLevel& level, const Placed& placed, ClipDrawn& drawn) {
   const Clock::time_point begun = Clock::now();
   const std::span<const EdgeId> edges = level.extractor.find(placed.eye, scratch_);
   drawn.extraction_ms = ms_since(begun);
   const Clock::time_point found = Clock::now();
   level.loops.build(edges, placed.eye, loops_);
-  edge_on_.clear();
-  if (options_.exact) {
-    const float diagonal = 0.5f * camera_.pixel_size * glm::length(camera_.size_px);
-    PictureScale scale;
-    scale.eye = placed.eye;
-    scale.forward = placed.forward;
-    scale.right = placed.right;
-    scale.up = placed.up;
-    scale.pixels_per_unit = placed.eye.orthographic ? placed.scale / camera_.pixel_size : 1.0f / camera_.pixel_size;
-    scale.widest_cosine = placed.eye.orthographic ? 1.0f : 1.0f / std::sqrt(1.0f + diagonal * diagonal);
-    scale.vertex_error_px = vertex_error_px();
-    if (targets_->samples() == 1) scale.axis_px = 0.5f * camera_.size_px;
-    scale.origin = placed.origin;
-    level.edge_on.find(scale, edge_on_);
-  }
   drawn.loops_ms = ms_since(found);
-  drawn.silhouette_edges = loops_.edge_count;
-  drawn.stencil_triangles = loops_.triangle_count();
-  drawn.edge_on_faces = edge_on_.size() / 3;
+}
+
+void ClipFrame::find_edge_on(const ClipLevel& level, const Placed& placed) {
+  const float diagonal = 0.5f * camera_.pixel_size * glm::length(camera_.size_px);
+  PictureScale scale;
+  scale.eye = placed.eye;
+  scale.forward = placed.forward;
+  scale.right = placed.right;
+  scale.up = placed.up;
+  scale.pixels_per_unit = placed.eye.orthographic ? placed.scale / camera_.pixel_size : 1.0f / camera_.pixel_size;
+  scale.widest_cosine = placed.eye.orthographic ? 1.0f : 1.0f / std::sqrt(1.0f + diagonal * diagonal);
+  scale.vertex_error_px = vertex_error_px();
+  if (targets_->samples() == 1) scale.axis_px = 0.5f * camera_.size_px;
+  scale.origin = placed.origin;
+  level.edge_on.find(scale, edge_on_);
 }
 
 void ClipFrame::find_rim(const ClipModel& model, const Placed& placed) {
@@ -235,13 +250,15 @@ void ClipFrame::count_faces(const ClipLevel& level) {
 }
 
 Result<const gl::Program*> ClipFrame::hull_program(const ClipModel& model) {
+  const bool single = model.materials_->size() == 1;
   const unsigned variant =
-      (model.normals_ ? 1u : 0u) | (model.colors_ ? 2u : 0u) | (model.displacement_ ? 4u : 0u);
+      (model.normals_ ? 1u : 0u) | (model.colors_ ? 2u : 0u) | (model.displacement_ ? 4u : 0u) | (single ? 8u : 0u);
   if (hulls_[variant] != nullptr) return hulls_[variant];
   std::vector<std::string> defines = stage_.defines;
   if (model.normals_) defines.emplace_back("OBJECT_NORMALS 1");
   if (model.colors_) defines.emplace_back("DETAIL_COLORS 1");
   if (model.displacement_) defines.emplace_back("DISPLACEMENT 1");
+  if (single) defines.emplace_back("SINGLE_MATERIAL 1");
   const auto program = context_->program({"clip_surface.vert.glsl", "", stage_.fragment, defines});
   if (!program) return tl::unexpected(program.error());
   hulls_[variant] = *program;
@@ -256,6 +273,7 @@ Result<void> ClipFrame::draw_hull(const ClipModel& model, const Placed& placed) 
   set_place(program, placed.to_world);
   program.set("displacement_range", Vec2(model.displacement_low_, model.displacement_high_));
   model.materials_->bind();
+  model.materials_->set_single(program);
   if (model.normals_) glBindTextureUnit(11, model.normals_.id());
   if (model.colors_) glBindTextureUnit(12, model.colors_.id());
   if (model.displacement_) glBindTextureUnit(13, model.displacement_.id());

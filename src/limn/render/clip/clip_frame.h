@@ -44,8 +44,8 @@ struct ClipDrawn {
   EyePlace place = EyePlace::kOutside;
   std::size_t level = 0;
   std::size_t silhouette_edges = 0, stencil_triangles = 0, edge_on_faces = 0;
-  double extraction_ms = 0;  ///< finding the silhouette, on the CPU
-  double loops_ms = 0;       ///< stringing it into loops and triangles, and finding faces seen edge on
+  double extraction_ms = 0;            ///< finding the silhouette, on the CPU
+  double loops_ms = 0;                 ///< stringing it into loops and triangles
   double stencil_ms = 0, hull_ms = 0;  ///< with time_stages: until the device was done
 };
 
@@ -92,6 +92,8 @@ class ClipFrame {
   Box box_of(const Bounds& bounds, const Placed& placed) const;
   std::size_t choose_level(const ClipModel& model, const Placed& placed) const;
   void find_silhouette(ClipLevel& level, const Placed& placed, ClipDrawn& drawn);
+  void find_loops(ClipLevel& level, const Placed& placed, ClipDrawn& drawn);
+  void find_edge_on(const ClipLevel& level, const Placed& placed);
   float vertex_error_px() const;
   void find_rim(const ClipModel& model, const Placed& placed);
   /// Where in the stream they lie.
@@ -113,7 +115,7 @@ class ClipFrame {
   std::unique_ptr<ClipMatte> matte_;
   const gl::Program* mask_ = nullptr;
   const gl::Program* original_ = nullptr;
-  std::array<const gl::Program*, 8> hulls_{};  ///< by which maps a model has
+  std::array<const gl::Program*, 16> hulls_{};  ///< by which maps a model has, and whether several materials
   CameraBuffer camera_buffer_;
   CameraBlock camera_;
   float far_distance_ = 0;
