@@ -15,7 +15,7 @@ constexpr std::size_t kFollowed = 1 << 14;   // vertices that a waist's sides ar
 constexpr std::size_t kFillable = 512;       // faces of a cavity that is tried to fill at once
 constexpr std::size_t kCornerTries = 32;     // vertices of a cavity that are tried as the point it is seen from
 constexpr std::size_t kSmallPart = 128;      // faces of a part that may go together with others
-constexpr std::ptrdiff_t kFalls = 4;          // winding numbers above this are not worth looking for
+constexpr std::ptrdiff_t kFalls = 4;         // winding numbers above this are not worth looking for
 constexpr std::size_t kGroup = 64;           // parts that go together
 constexpr std::size_t kBoxTests = 20000000;  // of one cleaning
 
@@ -263,8 +263,8 @@ bool PartSurgery::are_hidden(const std::vector<std::size_t>& group, const std::v
 }
 
 /// Whether the faces' winding number is positive all over the part's hull: the tetrahedron that it is, else its box.
-/// From a witness in the hull a straight way leads to every point of it. It crosses the plane of a face once at most, and
-/// the winding number falls there only where the face has the witness behind it.
+/// From a witness in the hull a straight way leads to every point of it. It crosses the plane of a face once at most,
+/// and the winding number falls there only where the face has the witness behind it.
 bool PartSurgery::is_hidden(const Part& part, const std::vector<Triangle>& faces) const {
   const std::vector<Triangle> inside = faces_inside(part, faces);
   for (const Vec3& witness : witnesses_of(part)) {
