@@ -1,5 +1,6 @@
 // Proves hulls of many meshes at three scales, and says what it looked at. Exit code 1 where anything is wrong.
-//   hull_enclosure_proof [--random N] [--samples N] [--strict] [--scales 1e-3,1,1e3] [--faces 4000,500,60] [MODEL…]
+//   hull_enclosure_proof [--first SEED] [--random N] [--samples N] [--strict] [--scales 1e-3,1,1e3] [--faces
+//   4000,500,60] [MODEL…]
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -18,7 +19,7 @@ namespace limn::test {
 namespace {
 
 struct Settings {
-  std::size_t random = 12;
+  std::size_t first = 0, random = 12;  ///< seeds of random solids
   std::size_t samples = 300;
   bool strict = false;
   std::vector<double> scales{1e-3, 1, 1e3};
@@ -44,6 +45,8 @@ Settings settings_of(int count, char** arguments) {
     const char* const value = i + 1 < count ? arguments[i + 1] : "0";
     if (argument == "--random") {
       settings.random = std::strtoull(value, nullptr, 10), ++i;
+    } else if (argument == "--first") {
+      settings.first = std::strtoull(value, nullptr, 10), ++i;
     } else if (argument == "--samples") {
       settings.samples = std::strtoull(value, nullptr, 10), ++i;
     } else if (argument == "--strict") {
@@ -120,7 +123,7 @@ int run(const Settings& settings) {
     for (const std::size_t faces : settings.targets)
       proof.look_at(name + " to " + std::to_string(faces), model->mesh, faces, 1, true);
   }
-  for (std::uint64_t seed = 0; seed < settings.random; ++seed) {
+  for (std::uint64_t seed = settings.first; seed < settings.first + settings.random; ++seed) {
     const Mesh mesh = random_solid(seed);
     Random random(seed);
     const std::size_t targets[] = {4, 8, 20, mesh.faces.size() / 10, mesh.faces.size() / 3};
