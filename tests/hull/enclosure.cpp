@@ -133,7 +133,7 @@ void look_elsewhere(const Surface& inner, const Surface& outer, std::size_t coun
       }
       if (inner.winding.is_on_surface(point) || outer.winding.is_on_surface(point)) continue;
       ++part.elsewhere;
-      part.fewer += outer.winding.at(point) < inner.winding.at(point);
+      part.lost += inner.winding.at(point) > 0 && outer.winding.at(point) <= 0;
     }
     const std::lock_guard lock(adding);
     tally.add(part);
@@ -184,7 +184,7 @@ EnclosureTally prove(const Mesh& mesh, const EnclosureOptions& options, HullSide
   if (options.strict && self_intersections(shell.positions, shell.faces).empty())
     tally.crossings += self_intersections(reached.positions, reached.faces).size();
   if (tally.outside > 0) tally.objection = std::to_string(tally.outside) + " points outside";
-  if (tally.fewer > 0) tally.objection = std::to_string(tally.fewer) + " points wound fewer times";
+  if (tally.lost > 0) tally.objection = std::to_string(tally.lost) + " points inside are lost";
   if (tally.crossings > 0) tally.objection = std::to_string(tally.crossings) + " pairs of faces intersect";
   if (!tally.objection.empty()) tally.objection = (inwards ? "inner: " : "outer: ") + tally.objection;
   return tally;
@@ -202,7 +202,7 @@ void EnclosureTally::add(const EnclosureTally& other) {
   outside += other.outside;
   nothing_inside += other.nothing_inside;
   strays += other.strays;
-  fewer += other.fewer;
+  lost += other.lost;
   steps += other.steps;
   proved += other.proved;
   crossings += other.crossings;

@@ -75,9 +75,9 @@ void print(const std::string& name, const EnclosureTally& tally, double seconds)
   std::printf(
       "%-34s hulls %zu (%zu reached), vertices %zu, samples %zu, on the hull %zu, OUTSIDE %zu, of no inside %zu, "
       "strays %zu, "
-      "elsewhere %zu, fewer %zu, steps %zu, proved %zu, %.1f s%s%s\n",
+      "elsewhere %zu, lost %zu, steps %zu, proved %zu, %.1f s%s%s\n",
       name.c_str(), tally.hulls, tally.reached, tally.vertices, tally.samples, tally.on_surface, tally.outside,
-      tally.nothing_inside, tally.strays, tally.elsewhere, tally.fewer, tally.steps, tally.proved, seconds,
+      tally.nothing_inside, tally.strays, tally.elsewhere, tally.lost, tally.steps, tally.proved, seconds,
       tally.refused.empty() ? "" : ("; refused: " + tally.refused).c_str(),
       tally.objection.empty() ? "" : ("; WRONG: " + tally.objection).c_str());
   std::fflush(stdout);
