@@ -90,10 +90,7 @@ Result<int> run(Session& session, const CompareFlags& flags) {
   if (!comparison) return tl::unexpected(comparison.error());
   const OutlineError& overall = comparison->overall;
   const std::array values{overall.mean_px, overall.p95_px, overall.max_px, overall.iou};
-  std::vector<std::string> failed;
-  for (const Gate& gate : flags.gates) {
-    if (trips(gate, values)) failed.push_back(gate.text);
-  }
+  const std::vector<std::string> failed = tripped(flags.gates, values);
   const Result<void> printed = session.json() ? session.print_json(compare_json(flags, *comparison, failed))
                                               : session.print(compare_text(flags, comparison->overall));
   if (!printed) return tl::unexpected(printed.error());

@@ -28,6 +28,13 @@ Comparator take_comparator(std::string_view& text) {
   return nullptr;
 }
 
+/// A number, divided by 100 where % follows.
+Result<double> parse_limit(std::string_view text) {
+  const bool percent = text.ends_with('%');
+  if (percent) text.remove_suffix(1);
+  return parse_number(text).map([percent](double value) { return percent ? value / 100.0 : value; });
+}
+
 /// "mean_px, p95_px, max_px or iou"
 std::string listed(std::span<const std::string_view> names) {
   std::string text;
@@ -46,7 +53,7 @@ Result<Gate> parse_gate(std::string_view text, std::span<const std::string_view>
       std::find_if(figures.begin(), figures.end(), [&](std::string_view name) { return rest.starts_with(name); });
   if (figure != figures.end()) rest.remove_prefix(figure->size());
   const Comparator comparator = figure != figures.end() ? take_comparator(rest) : nullptr;
-  const Result<double> limit = parse_number(rest);
+  const Result<double> limit = parse_limit(rest);
   if (comparator == nullptr || !limit) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("takes {}, then > >= < or <=, then a number, not '{}'", listed(figures), text),
@@ -55,8 +62,12 @@ Result<Gate> parse_gate(std::string_view text, std::span<const std::string_view>
   return Gate{std::string(text), static_cast<std::size_t>(figure - figures.begin()), comparator, *limit};
 }
 
-bool trips(const Gate& gate, std::span<const double> values) {
-  return gate.holds(values[gate.figure], gate.limit);
+std::vector<std::string> tripped(std::span<const Gate> gates, std::span<const double> values) {
+  std::vector<std::string> texts;
+  for (const Gate& gate : gates) {
+    if (gate.holds(values[gate.figure], gate.limit)) texts.push_back(gate.text);
+  }
+  return texts;
 }
 
 }  // namespace limn::cli

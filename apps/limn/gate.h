@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "limn/base/result.h"
 
@@ -16,11 +17,11 @@ struct Gate {
   double limit = 0;
 };
 
-/// One of the figures, then one of > >= < <=, then a number; blanks between them are allowed.
+/// One of the figures, then one of > >= < <=, then a number, a share where % follows; blanks between them are allowed.
 /// \param figures  two names or more, none the beginning of a later one
 Result<Gate> parse_gate(std::string_view text, std::span<const std::string_view> figures);
 
-/// \param values  of the figures, in their order
-bool trips(const Gate& gate, std::span<const double> values);
+/// The texts of those that trip. \param values  of the figures, in their order
+std::vector<std::string> tripped(std::span<const Gate> gates, std::span<const double> values);
 
 }  // namespace limn::cli

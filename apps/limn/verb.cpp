@@ -11,7 +11,7 @@ std::span<const Verb> verbs() {
 #ifdef LIMN_WITH_EMBREE
       silhouette_verb(),
 #endif
-      hull_verb(),       clip_verb(),
+      hull_verb(),       bake_verb(), clip_verb(),
       compare_verb(),    help_verb(), version_verb(), completion_verb(), man_verb(),
   };
   return all;

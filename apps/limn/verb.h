@@ -49,6 +49,7 @@ Verb hull_verb();
 Verb clip_verb();
 Verb render_verb();
 Verb silhouette_verb();
+Verb bake_verb();
 Verb compare_verb();
 Verb help_verb();
 Verb version_verb();

@@ -47,6 +47,15 @@ TEST_F(Examples, OfSilhouetteRun) {
   run_all("silhouette");
 }
 #endif
+TEST_F(Examples, OfHullRun) {
+  run_all("hull");
+}
+TEST_F(Examples, OfBakeRun) {
+  run_all("bake");
+}
+TEST_F(Examples, OfClipRun) {
+  run_all("clip");
+}
 TEST_F(Examples, OfCompareRun) {
   run_all("compare");
 }
@@ -56,7 +65,7 @@ TEST_F(Examples, OfTheOthersRun) {
 }
 
 TEST_F(Examples, CoverEveryVerb) {
-  std::size_t count = 9;
+  std::size_t count = 12;
 #ifdef LIMN_WITH_GL
   ++count;
 #endif

@@ -8,6 +8,7 @@
 #include "limn/base/orient3d.h"
 #include "limn/base/parallel.h"
 #include "limn/base/random.h"
+#include "limn/hull/self_intersections.h"
 #include "limn/hull/winding.h"
 #include "limn/mesh/shapes.h"
 
@@ -168,6 +169,17 @@ TEST(ProgressiveHull, AwkwardMeshesGiveAHullOrAReason) {
     }
   }
   EXPECT_GT(hulls, 10u);
+}
+
+TEST(ProgressiveHull, StrictHullsDoNotIntersectThemselves) {
+  // Smooth hulls of a knot run into one another.
+  const Mesh mesh = *make_shape(Shape::kKnot, {.faces = 4000});
+  const Hull loose = must_build(mesh, {.faces = 150});
+  const Hull strict = must_build(mesh, {.faces = 150, .strict = true});
+  EXPECT_FALSE(self_intersections(loose.mesh.positions, loose.mesh.faces).empty());
+  EXPECT_TRUE(self_intersections(strict.mesh.positions, strict.mesh.faces).empty());
+  EXPECT_LT(strict.mesh.faces.size(), 1000u);
+  EXPECT_EQ(count_outside(inside_points(strict.shell, 300, 4), strict.mesh), 0u);
 }
 
 TEST(ProgressiveHull, OriginalVerticesKnowWhatTheyBecamePartOf) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <new>
+#include <numeric>
 
 #include "limn/bake/shoot.h"
 #include "limn/bake/surface.h"
@@ -168,6 +169,11 @@ Result<BakedMaps> bake(const Mesh& high, const Mesh& low, const BakeOptions& opt
 
 Result<Mesh> mesh_with_maps(const BakedMaps& maps, const BakedMaterialOptions& options) {
   Mesh mesh = maps.mesh;
+  if (!maps.tangents.empty()) {
+    mesh.tangents.values = maps.tangents;
+    mesh.tangents.indices.resize(maps.tangents.size());
+    std::iota(mesh.tangents.indices.begin(), mesh.tangents.indices.end(), 0u);
+  }
   Material material;
   material.name = options.name;
   const auto attach = [&](const FloatImage& map, const ChannelCoding& coding, std::vector<std::byte>& image,

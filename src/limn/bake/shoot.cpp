@@ -16,16 +16,19 @@ std::vector<Vec3> moved(const Mesh& mesh, const UnitFrame& frame) {
   return positions;
 }
 
-/// Which of a batch's probes a ray belongs to.
-struct Casting {
-  RayBatch rays;
-  std::size_t probe[kProbeBatch];
-
-  void add(std::size_t index, const Vec3& origin, const Vec3& direction) {
-    probe[rays.count] = index;
-    rays.add(origin, direction);
+/// Rays from the probes, `sign` 1 along their normals and -1 against them, from a little behind.
+void add_rays(const ProbeBatch& probes, float sign, RayBatch& rays) {
+  const float behind = -sign * kTouching;
+  rays.count = probes.count;
+  for (std::size_t i = 0; i < probes.count; ++i) {
+    rays.origin_x[i] = probes.x[i] + behind * probes.normal_x[i];
+    rays.origin_y[i] = probes.y[i] + behind * probes.normal_y[i];
+    rays.origin_z[i] = probes.z[i] + behind * probes.normal_z[i];
+    rays.direction_x[i] = sign * probes.normal_x[i];
+    rays.direction_y[i] = sign * probes.normal_y[i];
+    rays.direction_z[i] = sign * probes.normal_z[i];
   }
-};
+}
 
 }  // namespace
 
@@ -42,20 +45,46 @@ struct Target::Impl {
   /// Embree lets one ray in some thousands slip between two faces when it runs right at their common edge or vertex,
   /// and where meshes share vertices such rays are many. Limn's own tree, slower, lets none: it is asked before a miss
   /// is one.
-  bool hit_again(const Probe& probe, float bound, Found& found) const {
+  bool hit_again(const Vec3& point, const Vec3& normal, float bound, FacePoint& place) const {
     if (!RayCaster::has_embree()) return false;
-    const Vec3 off = kTouching * probe.normal;
-    const FacePoint inwards = tree.first_hit({probe.point + off, -probe.normal, bound + kTouching});
-    if (inwards.face != kInvalidId && glm::dot(tree.area_vector(inwards.face), probe.normal) > 0.0f) {
-      found = {inwards, true};
-      found.place.distance = kTouching - inwards.distance;
+    for (const float sign : {-1.0f, 1.0f}) {
+      const FacePoint hit = tree.first_hit({point - sign * kTouching * normal, sign * normal, bound + kTouching});
+      if (hit.face == kInvalidId || !(glm::dot(tree.area_vector(hit.face), normal) > 0.0f)) continue;
+      place = hit;
+      place.distance = sign * (hit.distance - kTouching);
       return true;
     }
-    const FacePoint outwards = tree.first_hit({probe.point - off, probe.normal, bound + kTouching});
-    if (outwards.face == kInvalidId || !(glm::dot(tree.area_vector(outwards.face), probe.normal) > 0.0f)) return false;
-    found = {outwards, true};
-    found.place.distance = outwards.distance - kTouching;
-    return true;
+    return false;
+  }
+
+  /// Inwards, then outwards. Leaves the numbers of the probes that met nothing rightly.
+  std::size_t shoot(const ProbeBatch& probes, float bound, FoundBatch& found, std::size_t* left) const {
+    RayBatch rays;
+    HitBatch hits;
+    rays.far = bound + kTouching;
+    add_rays(probes, -1.0f, rays);
+    caster->first_hits(rays, hits);
+    ProbeBatch others;
+    std::size_t probe_of[kProbeBatch];
+    for (std::size_t i = 0; i < probes.count; ++i) {
+      found.hit[i] = hits.face[i] != kInvalidId && hits.front[i];
+      found.place[i] = {hits.face[i], hits.u[i], hits.v[i], kTouching - hits.distance[i]};
+      if (found.hit[i]) continue;
+      probe_of[others.count] = i;
+      others.add(probes.point(i), probes.normal(i));
+    }
+    if (others.count == 0) return 0;
+    add_rays(others, 1.0f, rays);
+    caster->first_hits(rays, hits);
+    std::size_t left_count = 0;
+    for (std::size_t k = 0; k < others.count; ++k) {
+      const std::size_t i = probe_of[k];
+      found.hit[i] = hits.face[k] != kInvalidId && !hits.front[k];
+      found.place[i] = {hits.face[k], hits.u[k], hits.v[k], hits.distance[k] - kTouching};
+      if (!found.hit[i]) found.hit[i] = hit_again(probes.point(i), probes.normal(i), bound, found.place[i]);
+      if (!found.hit[i]) left[left_count++] = i;
+    }
+    return left_count;
   }
 
   FaceTree tree;
@@ -71,43 +100,22 @@ Result<Target> Target::build(const Mesh& mesh, const UnitFrame& frame) {
   return Target(std::move(impl));
 }
 
-void Target::find(std::span<const Probe> probes, BakeMethod method, float bound, std::span<Found> found) const {
-  Casting inwards, outwards;
-  HitBatch hits;
-  std::size_t left[kProbeBatch], left_count = 0;
-  if (method == BakeMethod::kShoot) {
-    inwards.rays.far = outwards.rays.far = bound + kTouching;
-    for (std::size_t i = 0; i < probes.size(); ++i)
-      inwards.add(i, probes[i].point + kTouching * probes[i].normal, -probes[i].normal);
-    impl_->caster->first_hits(inwards.rays, hits);
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-      if (hits.face[i] != kInvalidId && hits.front[i]) {
-        found[i] = {{hits.face[i], hits.u[i], hits.v[i], kTouching - hits.distance[i]}, true};
-      } else {
-        outwards.add(i, probes[i].point - kTouching * probes[i].normal, probes[i].normal);
-      }
-    }
-    impl_->caster->first_hits(outwards.rays, hits);
-    for (std::size_t k = 0; k < outwards.rays.count; ++k) {
-      const std::size_t i = outwards.probe[k];
-      if (hits.face[k] != kInvalidId && !hits.front[k]) {
-        found[i] = {{hits.face[k], hits.u[k], hits.v[k], hits.distance[k] - kTouching}, true};
-      } else {
-        left[left_count++] = i;
-      }
-    }
-  } else {
-    for (std::size_t i = 0; i < probes.size(); ++i)
-      left[left_count++] = i;
-  }
+void Target::find(const ProbeBatch& probes, BakeMethod method, float bound, FoundBatch& found) const {
   // Neighbours mostly end up near each other: each starts from where the one before it did.
   FacePoint hint;
+  if (method == BakeMethod::kClosest) {
+    for (std::size_t i = 0; i < probes.count; ++i) {
+      hint = found.place[i] = impl_->tree.closest(probes.point(i), hint);
+      found.hit[i] = false;
+    }
+    return;
+  }
+  std::size_t left[kProbeBatch];
+  const std::size_t left_count = impl_->shoot(probes, bound, found, left);
   for (std::size_t k = 0; k < left_count; ++k) {
     const std::size_t i = left[k];
-    if (i > 0 && found[i - 1].place.face != kInvalidId && method == BakeMethod::kShoot) hint = found[i - 1].place;
-    if (method == BakeMethod::kShoot && impl_->hit_again(probes[i], bound, found[i])) continue;
-    hint = impl_->tree.closest(probes[i].point, hint);
-    found[i] = {hint, false};
+    if (i > 0 && found.hit[i - 1]) hint = found.place[i - 1];
+    hint = found.place[i] = impl_->tree.closest(probes.point(i), hint);
   }
 }
 

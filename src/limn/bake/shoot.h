@@ -23,20 +23,29 @@ struct UnitFrame {
   Vec3 outside(const Vec3& p) const { return Vec3(DVec3(p) / scale + middle); }
 };
 
-/// A point of the low mesh and the unit direction in which it looks for the high one, in the unit frame.
-struct Probe {
-  Vec3 point{0};
-  Vec3 normal{0, 0, 1};
-};
-
-/// What it found.
-struct Found {
-  FacePoint place;   ///< distance: signed and along the normal for a hit; for a miss the length of the way
-  bool hit = false;  ///< by a ray; else the closest point
-};
-
 /// Probes are answered in batches of so many, together: those of a batch should be neighbours.
 inline constexpr std::size_t kProbeBatch = 64;
+
+/// Points of the low mesh and the unit directions in which they look for the high one, in the unit frame.
+struct ProbeBatch {
+  alignas(64) float x[kProbeBatch], y[kProbeBatch], z[kProbeBatch];
+  alignas(64) float normal_x[kProbeBatch], normal_y[kProbeBatch], normal_z[kProbeBatch];
+  std::size_t count = 0;
+
+  Vec3 point(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  Vec3 normal(std::size_t i) const { return {normal_x[i], normal_y[i], normal_z[i]}; }
+  void add(const Vec3& point, const Vec3& normal) {
+    x[count] = point.x, y[count] = point.y, z[count] = point.z;
+    normal_x[count] = normal.x, normal_y[count] = normal.y, normal_z[count] = normal.z;
+    ++count;
+  }
+};
+
+/// What they found.
+struct FoundBatch {
+  FacePoint place[kProbeBatch];  ///< distance: signed and along the normal for a hit; for a miss the length of the way
+  bool hit[kProbeBatch];         ///< by a ray; else the closest point
+};
 
 /// A mesh made ready to be found from points beside it. docs/baking.md
 class Target {
@@ -51,8 +60,8 @@ class Target {
   /// For each probe: the first face along −normal, if it is turned towards the probe; else the first along the normal,
   /// if it is turned away; both no farther than `bound`; else the closest point. With kClosest the closest point
   /// always. Rays begin kTouching behind the point, so that a surface that runs through it is met at a distance of
-  /// about 0. Same bits for the same batch. \pre probes.size() == found.size() <= kProbeBatch; everything finite
-  void find(std::span<const Probe> probes, BakeMethod method, float bound, std::span<Found> found) const;
+  /// about 0. Same bits for the same batch. \pre everything finite
+  void find(const ProbeBatch& probes, BakeMethod method, float bound, FoundBatch& found) const;
 
   /// How many of the rays from one origin run for `bound` without meeting a face. \pre at most kProbeBatch directions
   std::size_t count_open(const Vec3& origin, std::span<const Vec3> directions, float bound) const;

@@ -1,5 +1,6 @@
 #include "limn/bake/surface.h"
 
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -100,12 +101,24 @@ Result<Surface> Surface::build(const Mesh& mesh, bool colors) {
   return surface;
 }
 
-Vec3 Surface::normal(const FacePoint& at) const {
-  const Corners& corners = normals_[at.face];
-  const Vec3 n = interpolated(corners.normal[0], corners.normal[1], corners.normal[2], at);
-  const float length = glm::dot(n, n);
-  if (length > 1e-12f) return n / std::sqrt(length);
-  return face_normal(*mesh_, at.face);
+void Surface::normals(std::span<const FacePoint> places, Vec3* normals) const {
+  constexpr std::size_t kRoom = 64;
+  assert(places.size() <= kRoom);
+  float x[kRoom], y[kRoom], z[kRoom], length[kRoom];
+  // Places are anywhere in memory: all are on their way before the first is needed.
+  for (const FacePoint& at : places)
+    __builtin_prefetch(&normals_[at.face]);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Corners& corners = normals_[places[i].face];
+    const float u = places[i].u, v = places[i].v, w = 1.0f - u - v;
+    x[i] = corners.normal[0].x * w + corners.normal[1].x * u + corners.normal[2].x * v;
+    y[i] = corners.normal[0].y * w + corners.normal[1].y * u + corners.normal[2].y * v;
+    z[i] = corners.normal[0].z * w + corners.normal[1].z * u + corners.normal[2].z * v;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    length[i] = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    normals[i] = length[i] > 1e-6f ? Vec3(x[i], y[i], z[i]) * (1.0f / length[i]) : face_normal(*mesh_, places[i].face);
 }
 
 Vec4 Surface::color(const FacePoint& at, float footprint) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "limn/bake/face_tree.h"
@@ -20,8 +21,8 @@ class Surface {
   /// Errors: kUnsuitable, naming the material, for a picture that cannot be decoded.
   static Result<Surface> build(const Mesh& mesh, bool colors);
 
-  /// The interpolated normal, of unit length.
-  Vec3 normal(const FacePoint& at) const;
+  /// The interpolated normals, of unit length, at up to 64 places.
+  void normals(std::span<const FacePoint> places, Vec3* normals) const;
 
   /// Linear RGBA: the material's colour, times its picture, times the vertex colour.
   /// \param footprint  how wide a texel of the map is on the surface, in the mesh's units: pictures are read from the

@@ -19,7 +19,7 @@ bool not_zero(const Vec3& v) {
   return not_zero(v.x) || not_zero(v.y) || not_zero(v.z);
 }
 Vec3 unit(const Vec3& v) {
-  return not_zero(v) ? v / std::sqrt(glm::dot(v, v)) : v;
+  return not_zero(v) ? (1.0f / std::sqrt(glm::dot(v, v))) * v : v;
 }
 /// Without its part along n, of unit length.
 Vec3 projected(const Vec3& v, const Vec3& n) {
@@ -69,7 +69,7 @@ class MikkTangents {
     join_corners();
     measure_faces();
     find_neighbours();
-    tangents_.assign(point_.size(), Vec4(1, 0, 0, 1));
+    tangents_.assign(point_.size(), Vec4(1, 0, 0, -1));
     group_.assign(point_.size(), kNone);
     for (std::uint32_t corner = 0; corner < point_.size(); ++corner) {
       const FaceTangents& face = faces_[corner / 3];

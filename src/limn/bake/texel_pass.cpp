@@ -19,16 +19,16 @@ constexpr std::size_t kSteps = 32;         ///< of progress
 constexpr float kOcclusionOffset = 1e-4f;  // of the unit frame: off the surface, so that its own face does not block
 
 struct Texel {
-  int x = 0, y = 0;
-  std::size_t index = 0;
-  FaceId face = kInvalidId;
+  int x, y;
+  std::size_t index;
+  FaceId face;
 };
 
 /// What a block found, to be added up in the order of blocks.
 struct BlockReport {
   std::size_t texels = 0, misses = 0;
   float worst = -1.0f;
-  Texel worst_texel;
+  Texel worst_texel{};
   float low = 0.0f, high = 0.0f;
 };
 
@@ -40,11 +40,6 @@ struct Sums {
   float open = 0;
   DVec3 position{0};
 };
-
-template <class T>
-T interpolated(const T (&corner)[3], const Barycentric& at) {
-  return corner[0] * (1.0f - at.u - at.v) + corner[1] * at.u + corner[2] * at.v;
-}
 
 Vec3 unit_or(const Vec3& v, const Vec3& instead) {
   const float length = glm::dot(v, v);
@@ -136,56 +131,93 @@ class Filler {
     return scene_.texels.at(texel.face, static_cast<float>(texel.x) + dx, static_cast<float>(texel.y) + dy);
   }
 
-  Probe probe_at(const LowFace& face, const Barycentric& at) const {
-    const Vec3 normal = interpolated(face.normal, at);
-    Probe probe{interpolated(face.position, at), normal};
-    probe.normal = unit_or(normal, face.normal[0]);
-    return probe;
+  /// The points of the low mesh that these texels' samples are, texel by texel.
+  void lay_probes(std::span<const Texel> texels, ProbeBatch& probes) const {
+    probes.count = texels.size() * samples_;
+    for (std::size_t i = 0; i < probes.count; ++i) {
+      const Texel& texel = texels[i / samples_];
+      const LowFace& face = scene_.low[texel.face];
+      const Barycentric at = place(texel, i % samples_);
+      const float u = at.u, v = at.v, w = 1.0f - u - v;
+      probes.x[i] = face.position[0].x * w + face.position[1].x * u + face.position[2].x * v;
+      probes.y[i] = face.position[0].y * w + face.position[1].y * u + face.position[2].y * v;
+      probes.z[i] = face.position[0].z * w + face.position[1].z * u + face.position[2].z * v;
+      probes.normal_x[i] = face.normal[0].x * w + face.normal[1].x * u + face.normal[2].x * v;
+      probes.normal_y[i] = face.normal[0].y * w + face.normal[1].y * u + face.normal[2].y * v;
+      probes.normal_z[i] = face.normal[0].z * w + face.normal[1].z * u + face.normal[2].z * v;
+    }
+    float length[kProbeBatch];
+    for (std::size_t i = 0; i < probes.count; ++i) {
+      length[i] = std::sqrt(probes.normal_x[i] * probes.normal_x[i] + probes.normal_y[i] * probes.normal_y[i] +
+                            probes.normal_z[i] * probes.normal_z[i]);
+    }
+    for (std::size_t i = 0; i < probes.count; ++i) {
+      const float inverse = 1.0f / length[i];
+      probes.normal_x[i] *= inverse;
+      probes.normal_y[i] *= inverse;
+      probes.normal_z[i] *= inverse;
+    }
+    for (std::size_t i = 0; i < probes.count; ++i) {
+      // Normals that cancel each other.
+      if (!(length[i] > 1e-6f)) set_normal(probes, i, scene_.low[texels[i / samples_].face].normal[0]);
+    }
+  }
+
+  static void set_normal(ProbeBatch& probes, std::size_t i, const Vec3& normal) {
+    probes.normal_x[i] = normal.x;
+    probes.normal_y[i] = normal.y;
+    probes.normal_z[i] = normal.z;
   }
 
   /// As many texels as one batch of probes holds.
   void fill_group(std::span<const Texel> texels, BlockReport& report) const {
-    std::array<Probe, kProbeBatch> probes;
-    std::array<Found, kProbeBatch> found;
-    const std::size_t count = texels.size() * samples_;
-    for (std::size_t i = 0; i < count; ++i) {
-      const Texel& texel = texels[i / samples_];
-      probes[i] = probe_at(scene_.low[texel.face], place(texel, i % samples_));
-    }
-    scene_.target.find(std::span(probes.data(), count), scene_.options.method, bound_, std::span(found.data(), count));
+    ProbeBatch probes;
+    FoundBatch found;
+    Vec3 normals[kProbeBatch];
+    lay_probes(texels, probes);
+    scene_.target.find(probes, scene_.options.method, bound_, found);
+    scene_.surface.normals(std::span(found.place, probes.count), normals);
     for (std::size_t t = 0; t < texels.size(); ++t) {
       Sums sums;
-      for (std::size_t s = 0; s < samples_; ++s) {
-        const std::size_t i = t * samples_ + s;
-        add(texels[t], s, probes[i], found[i], sums, report);
-      }
+      for (std::size_t i = t * samples_; i < (t + 1) * samples_; ++i)
+        add(texels[t], {i, probes, found, normals[i]}, sums, report);
       write(texels[t], sums, report);
     }
   }
 
-  void add(const Texel& texel, std::size_t sample, const Probe& probe, const Found& found, Sums& sums,
-           BlockReport& report) const {
-    const float distance = std::abs(found.place.distance);
+  /// A sample of a texel, and what it found.
+  struct Sample {
+    std::size_t index;  ///< within its batch
+    const ProbeBatch& probes;
+    const FoundBatch& found;
+    const Vec3& normal;
+
+    const FacePoint& place() const { return found.place[index]; }
+  };
+
+  void add(const Texel& texel, const Sample& sample, Sums& sums, BlockReport& report) const {
+    const FacePoint& place = sample.place();
+    const float distance = std::abs(place.distance);
     if (distance > report.worst) {
       report.worst = distance;
       report.worst_texel = texel;
     }
-    if (!found.hit) ++report.misses;
-    const Vec3 normal = scene_.surface.normal(found.place);
-    sums.normal += normal;
-    if (!maps_.displacement.empty()) sums.displacement += displacement(probe, found);
+    if (!sample.found.hit[sample.index]) ++report.misses;
+    sums.normal += sample.normal;
+    if (!maps_.displacement.empty()) sums.displacement += displacement(sample);
     if (!maps_.colors.empty()) {
       const float footprint = scene_.low[texel.face].footprint / static_cast<float>(side_);
-      sums.color += scene_.surface.color(found.place, footprint);
+      sums.color += scene_.surface.color(place, footprint);
     }
-    if (!maps_.occlusion.empty()) sums.open += open_share(texel, sample, found.place, normal);
-    if (!maps_.positions.empty()) sums.position += DVec3(scene_.surface.position(found.place));
+    if (!maps_.occlusion.empty()) sums.open += open_share(texel, sample.index % samples_, place, sample.normal);
+    if (!maps_.positions.empty()) sums.position += DVec3(scene_.surface.position(place));
   }
 
-  float displacement(const Probe& probe, const Found& found) const {
-    if (found.hit) return found.place.distance * unit_length_;
-    const Vec3 there = scene_.frame.inside(scene_.surface.position(found.place));
-    return glm::dot(there - probe.point, probe.normal) * unit_length_;
+  float displacement(const Sample& sample) const {
+    const FacePoint& place = sample.place();
+    if (sample.found.hit[sample.index]) return place.distance * unit_length_;
+    const Vec3 there = scene_.frame.inside(scene_.surface.position(place));
+    return glm::dot(there - sample.probes.point(sample.index), sample.probes.normal(sample.index)) * unit_length_;
   }
 
   float open_share(const Texel& texel, std::size_t sample, const FacePoint& at, const Vec3& normal) const {
@@ -207,7 +239,7 @@ class Filler {
 
   void write(const Texel& texel, const Sums& sums, BlockReport& report) const {
     const float share = 1.0f / static_cast<float>(samples_);
-    const Vec3 normal = unit_or(sums.normal, Vec3(0, 0, 1));
+    const Vec3 normal = samples_ == 1 ? sums.normal : unit_or(sums.normal, Vec3(0, 0, 1));
     if (!maps_.object_normals.empty()) store(maps_.object_normals, texel, normal);
     if (!maps_.tangent_normals.empty()) {
       const LowFace& face = scene_.low[texel.face];

@@ -11,7 +11,7 @@ namespace limn {
 namespace {
 
 // Of placements that add the same volume, how much nearer to the edge's middle one must lie to be taken (docs/hull.md).
-constexpr double kTie = 0.01;
+constexpr double kTie = 0.005;
 // Volume of edge length cubed that a collapse is charged besides: short edges go first where volumes say little.
 constexpr double kShape = 0.0033;
 // Normals are kept as floats, and placements have a tolerance: how far outside of the planes to aim, in edge lengths.

@@ -75,7 +75,7 @@ class Collapser {
   std::vector<std::uint32_t> touched_;  ///< how often a face around a vertex changed
   Candidate edge_{};
   CollapseCounts counts_;
-  double reach_ = 3.0;
+  double reach_ = 10.0;
 };
 
 }  // namespace limn

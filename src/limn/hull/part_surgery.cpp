@@ -15,6 +15,7 @@ constexpr std::size_t kFollowed = 1 << 14;   // vertices that a waist's sides ar
 constexpr std::size_t kFillable = 512;       // faces of a cavity that is tried to fill at once
 constexpr std::size_t kCornerTries = 32;     // vertices of a cavity that are tried as the point it is seen from
 constexpr std::size_t kSmallPart = 128;      // faces of a part that may go together with others
+constexpr std::ptrdiff_t kFalls = 4;         // winding numbers above this are not worth looking for
 constexpr std::size_t kGroup = 64;           // parts that go together
 constexpr std::size_t kBoxTests = 20000000;  // of one cleaning
 
@@ -164,9 +165,7 @@ bool PartSurgery::is_star_from(const Part& part, const Vec3& point, Certificate&
 /// Where the whole inside of a cavity may be seen from.
 std::vector<Vec3> PartSurgery::star_centers(const Part& part) const {
   std::vector<Vec3> centers;
-  Bounds box;
-  for (const VertexId v : part.vertices)
-    box.add(surface_.position(v));
+  const Bounds box = box_of(part);
   const double size = box.diagonal();
   if (size > 0.0) {
     const DVec3 middle(box.center());
@@ -231,40 +230,108 @@ std::vector<PartSurgery::Part> PartSurgery::find_parts() {
   return parts;
 }
 
-/// The part and what small parts lie about it, when the winding number of all the others is positive all over the box
-/// around them; else none. Tetrahedra that wind outwards may be left out of account: they only raise it.
+/// The part, alone or with small parts that meet it or one another, when the winding number of all the others is
+/// positive all over each; else none.
 std::vector<std::size_t> PartSurgery::hidden_group(std::size_t first, const std::vector<Part>& parts) const {
   std::vector<std::size_t> group{first};
+  if (are_hidden(group, parts)) return group;
   std::vector<std::uint8_t> is_in(parts.size(), 0);
   is_in[first] = 1;
-  Bounds box;
   for (std::size_t done = 0; done < group.size(); ++done) {
-    for (const VertexId v : parts[group[done]].vertices)
-      box.add(surface_.position(v));
-    if (done + 1 < group.size()) continue;
+    const Part& member = parts[group[done]];
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const Part& other = parts[i];
-      if (is_in[i] != 0 || other.positive_tetrahedron || is_clear(box, other)) continue;
-      if (other.faces.size() > kSmallPart || group.size() == kGroup) return {};
+      if (is_in[i] != 0 || other.faces.size() > kSmallPart || other.positive_tetrahedron) continue;
+      if (faces_inside(member, other.faces).empty()) continue;
+      if (group.size() == kGroup) return {};
       is_in[i] = 1;
       group.push_back(i);
     }
   }
-  std::vector<Triangle> faces;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    if (is_in[i] == 0 && !parts[i].positive_tetrahedron)
-      faces.insert(faces.end(), parts[i].faces.begin(), parts[i].faces.end());
-  }
-  const VertexId v = parts[first].vertices.front();
-  const std::optional<int> winding = winding_number(surface_.positions(), faces, surface_.position(v));
-  if (!winding.has_value() || *winding <= 0) return {};
+  if (group.size() == 1 || !are_hidden(group, parts)) return {};
   return group;
 }
 
-bool PartSurgery::is_clear(const Bounds& box, const Part& part) const {
-  return std::all_of(part.faces.begin(), part.faces.end(), [&](const Triangle& face) {
-    return is_clear_of(box, surface_.position(face[0]), surface_.position(face[1]), surface_.position(face[2]));
-  });
+bool PartSurgery::are_hidden(const std::vector<std::size_t>& group, const std::vector<Part>& parts) const {
+  std::vector<Triangle> faces;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    // Tetrahedra that wind outwards may be left out of account: they only raise the winding number.
+    if (parts[i].positive_tetrahedron || std::find(group.begin(), group.end(), i) != group.end()) continue;
+    faces.insert(faces.end(), parts[i].faces.begin(), parts[i].faces.end());
+  }
+  return std::all_of(group.begin(), group.end(), [&](std::size_t i) { return is_hidden(parts[i], faces); });
+}
+
+/// Whether the faces' winding number is positive all over the part's hull: the tetrahedron that it is, else its box.
+/// From a witness in the hull a straight way leads to every point of it. It crosses the plane of a face once at most,
+/// and the winding number falls there only where the face has the witness behind it.
+bool PartSurgery::is_hidden(const Part& part, const std::vector<Triangle>& faces) const {
+  const std::vector<Triangle> inside = faces_inside(part, faces);
+  for (const Vec3& witness : witnesses_of(part)) {
+    const auto falls = std::count_if(inside.begin(), inside.end(), [&](const Triangle& face) {
+      return orient3d(surface_.position(face[0]), surface_.position(face[1]), surface_.position(face[2]), witness) <= 0;
+    });
+    if (falls > kFalls) continue;
+    const std::optional<int> winding = winding_number(surface_.positions(), faces, witness);
+    if (winding.has_value() && *winding > falls) return true;
+  }
+  return false;
+}
+
+Bounds PartSurgery::box_of(const Part& part) const {
+  Bounds box;
+  for (const VertexId v : part.vertices)
+    box.add(surface_.position(v));
+  return box;
+}
+
+/// The faces that may reach into a part's hull.
+std::vector<Triangle> PartSurgery::faces_inside(const Part& part, const std::vector<Triangle>& faces) const {
+  std::vector<Triangle> inside;
+  const Bounds box = box_of(part);
+  for (const Triangle& face : faces) {
+    if (is_clear_of(box, surface_.position(face[0]), surface_.position(face[1]), surface_.position(face[2]))) continue;
+    if (part.positive_tetrahedron && is_outside_tetrahedron(face, part)) continue;
+    inside.push_back(face);
+  }
+  return inside;
+}
+
+/// Whether a plane of the tetrahedron or the triangle's own parts their insides; it may touch.
+bool PartSurgery::is_outside_tetrahedron(const Triangle& face, const Part& tetrahedron) const {
+  const auto at = [&](VertexId v) -> const Vec3& { return surface_.position(v); };
+  for (const auto& [a, b, c] : tetrahedron.faces) {
+    if (std::all_of(face.begin(), face.end(), [&](VertexId v) { return orient3d(at(a), at(b), at(c), at(v)) >= 0; }))
+      return true;
+  }
+  int least = 1, most = -1;
+  for (const VertexId v : tetrahedron.vertices) {
+    const int side = orient3d(at(face[0]), at(face[1]), at(face[2]), at(v));
+    least = std::min(least, side);
+    most = std::max(most, side);
+  }
+  return least >= 0 || most <= 0;
+}
+
+/// Points in a part's hull.
+std::vector<Vec3> PartSurgery::witnesses_of(const Part& part) const {
+  DVec3 sum(0.0);
+  for (const VertexId v : part.vertices)
+    sum += DVec3(surface_.position(v));
+  const DVec3 middle = sum / static_cast<double>(part.vertices.size());
+  std::vector<Vec3> points;
+  for (const double nearness : {0.0, 0.5, 0.9, 0.99}) {
+    for (std::size_t i = 0; i < std::min(part.vertices.size(), nearness > 0.0 ? kCornerTries : 1); ++i)
+      points.emplace_back(middle + nearness * (DVec3(surface_.position(part.vertices[i])) - middle));
+  }
+  const auto leaves = [&](const Vec3& point) {
+    return std::any_of(part.faces.begin(), part.faces.end(), [&](const Triangle& face) {
+      return orient3d(surface_.position(face[0]), surface_.position(face[1]), surface_.position(face[2]), point) >= 0;
+    });
+  };
+  // Rounding may take them out of a thin tetrahedron; out of a box it cannot.
+  if (part.positive_tetrahedron) points.erase(std::remove_if(points.begin(), points.end(), leaves), points.end());
+  return points;
 }
 
 bool PartSurgery::clean(std::vector<VertexId>& changed) {

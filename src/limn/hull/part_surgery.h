@@ -54,7 +54,12 @@ class PartSurgery {
   Part make_part(std::vector<VertexId> vertices) const;
   std::vector<Part> find_parts();
   std::vector<std::size_t> hidden_group(std::size_t first, const std::vector<Part>& parts) const;
-  bool is_clear(const Bounds& box, const Part& part) const;
+  Bounds box_of(const Part& part) const;
+  bool are_hidden(const std::vector<std::size_t>& group, const std::vector<Part>& parts) const;
+  bool is_hidden(const Part& part, const std::vector<Triangle>& faces) const;
+  std::vector<Triangle> faces_inside(const Part& part, const std::vector<Triangle>& faces) const;
+  bool is_outside_tetrahedron(const Triangle& face, const Part& tetrahedron) const;
+  std::vector<Vec3> witnesses_of(const Part& part) const;
   void go(const Part& part, HullStep::Kind kind, const Vec3& witness);
 
   RingSurface& surface_;

@@ -11,6 +11,7 @@
 #include "limn/hull/collapser.h"
 #include "limn/hull/part_surgery.h"
 #include "limn/hull/ring_surface.h"
+#include "limn/hull/strict_guard.h"
 #include "limn/mesh/normals.h"
 #include "limn/mesh/topology.h"
 
@@ -20,7 +21,11 @@ namespace {
 constexpr std::size_t kSeldom = 1024;            // collapses between two reports of progress
 constexpr std::size_t kCleanFrom = 16;           // hidden parts are looked for from so many times the target on
 constexpr double kCleanStep = 0.75;              // and again when that much of what is above the target is left
-constexpr double kReaches[] = {3.0, 10.0, 1e3};  // edge lengths that a vertex may move: farther when nothing is left
+#ifdef TRY
+const double kReaches[] = {std::getenv("REACH")?std::atof(std::getenv("REACH")):10.0, 1e3};
+#else
+constexpr double kReaches[] = {10.0, 1e3};
+#endif  // edge lengths that a vertex may move: farther when nothing is left
 
 double volume_of(std::span<const Vec3> positions, std::span<const Triangle> faces) {
   Bounds box;
@@ -46,7 +51,8 @@ class Shrinker {
   Shrinker(RingSurface& surface, const HullOptions& options)
       : surface_(surface),
         options_(options),
-        collapser_(surface, steps_, certificate_, nullptr),
+        guard_(options.strict ? std::make_unique<StrictGuard>(surface) : nullptr),
+        collapser_(surface, steps_, certificate_, guard_.get()),
         surgery_(surface, steps_, certificate_),
         first_faces_(surface.live_faces()) {}
 
@@ -119,6 +125,7 @@ class Shrinker {
   const HullOptions& options_;
   std::vector<HullStep> steps_;
   Certificate certificate_;
+  std::unique_ptr<StepGuard> guard_;
   Collapser collapser_;
   PartSurgery surgery_;
   std::size_t first_faces_;

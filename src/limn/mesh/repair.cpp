@@ -32,6 +32,7 @@ void keep_faces(Mesh& mesh, const std::vector<std::uint8_t>& keep) {
   keep_indices(mesh.normals.indices);
   keep_indices(mesh.uvs.indices);
   keep_indices(mesh.colors.indices);
+  keep_indices(mesh.tangents.indices);
   std::size_t kept = 0;
   for (std::size_t face = 0; face < keep.size(); ++face) {
     if (!keep[face]) continue;
@@ -188,6 +189,8 @@ void turn_faces(Mesh& mesh, const std::vector<std::uint8_t>& turn) {
     }
   }
   turn_normals(mesh, turn);
+  // Those of a turned face would point to the wrong side.
+  if (std::find(turn.begin(), turn.end(), 1) != turn.end()) mesh.tangents = {};
 }
 
 /// Takes away what belongs to vertices that are not marked, and keeps the order of the rest.
@@ -220,6 +223,7 @@ std::size_t remove_unused_vertices(Mesh& mesh) {
   keep_values(mesh.normals);
   keep_values(mesh.uvs);
   keep_values(mesh.colors);
+  keep_values(mesh.tangents);
   if (!mesh.tags.empty()) keep_marked(mesh.tags, used);
   keep_marked(mesh.positions, used);
   for (Triangle& t : mesh.faces)

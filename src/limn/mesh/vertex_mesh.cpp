@@ -12,8 +12,10 @@ struct CornerValues {
   Vec3 normal{0.0f};
   Vec2 uv{0.0f};
   Vec4 color{0.0f};
+  Vec4 tangent{0.0f};
 };
-static_assert(sizeof(CornerValues) == 9 * sizeof(float));
+constexpr std::size_t kWords = 13;
+static_assert(sizeof(CornerValues) == kWords * sizeof(float));
 
 /// Bits, not values: -0 and 0 are kept apart, NaN equals itself.
 bool same_bits(const CornerValues& a, const CornerValues& b) {
@@ -21,7 +23,7 @@ bool same_bits(const CornerValues& a, const CornerValues& b) {
 }
 
 std::uint64_t hash_of(VertexId vertex, const CornerValues& values) {
-  std::uint32_t words[9];
+  std::uint32_t words[kWords];
   std::memcpy(words, &values, sizeof values);
   std::uint64_t hash = vertex;
   for (const std::uint32_t word : words)
@@ -41,6 +43,7 @@ class VertexSplitter {
     if (!mesh.normals.empty()) result_.normals.assign(count, Vec3(0, 0, 1));
     if (!mesh.uvs.empty()) result_.uvs.assign(count, Vec2(0.0f));
     if (!mesh.colors.empty()) result_.colors.assign(count, Vec4(1.0f));
+    if (!mesh.tangents.empty()) result_.tangents.assign(count, Vec4(1, 0, 0, 1));
     used_.assign(count, false);
   }
 
@@ -61,6 +64,7 @@ class VertexSplitter {
     if (!mesh_.normals.empty()) values.normal = mesh_.corner(mesh_.normals, face, c);
     if (!mesh_.uvs.empty()) values.uv = mesh_.corner(mesh_.uvs, face, c);
     if (!mesh_.colors.empty()) values.color = mesh_.corner(mesh_.colors, face, c);
+    if (!mesh_.tangents.empty()) values.tangent = mesh_.corner(mesh_.tangents, face, c);
     return values;
   }
 
@@ -69,6 +73,7 @@ class VertexSplitter {
     if (!result_.normals.empty()) values.normal = result_.normals[vertex];
     if (!result_.uvs.empty()) values.uv = result_.uvs[vertex];
     if (!result_.colors.empty()) values.color = result_.colors[vertex];
+    if (!result_.tangents.empty()) values.tangent = result_.tangents[vertex];
     return values;
   }
 
@@ -76,6 +81,7 @@ class VertexSplitter {
     if (!result_.normals.empty()) result_.normals[vertex] = values.normal;
     if (!result_.uvs.empty()) result_.uvs[vertex] = values.uv;
     if (!result_.colors.empty()) result_.colors[vertex] = values.color;
+    if (!result_.tangents.empty()) result_.tangents[vertex] = values.tangent;
   }
 
   /// The vertex at `position` with these values: the position itself for the first that come, a repeat for others.
@@ -111,6 +117,7 @@ class VertexSplitter {
     if (!result_.normals.empty()) result_.normals.push_back(values.normal);
     if (!result_.uvs.empty()) result_.uvs.push_back(values.uv);
     if (!result_.colors.empty()) result_.colors.push_back(values.color);
+    if (!result_.tangents.empty()) result_.tangents.push_back(values.tangent);
     ++repeats_;
     return vertex;
   }
@@ -139,10 +146,11 @@ bool one_a_vertex(const CornerAttribute<T>& attribute) {
 }  // namespace
 
 VertexMesh one_value_per_vertex(const Mesh& mesh) {
-  if (!one_a_vertex(mesh.normals) || !one_a_vertex(mesh.uvs) || !one_a_vertex(mesh.colors)) {
+  if (!one_a_vertex(mesh.normals) || !one_a_vertex(mesh.uvs) || !one_a_vertex(mesh.colors) ||
+      !one_a_vertex(mesh.tangents)) {
     return VertexSplitter(mesh).split();
   }
-  VertexMesh result{mesh.positions, mesh.normals.values, mesh.uvs.values, mesh.colors.values, mesh.faces, {}};
+  VertexMesh result{mesh.positions, mesh.normals.values, mesh.uvs.values, mesh.colors.values, mesh.tangents.values, mesh.faces, {}};
   result.source.resize(mesh.positions.size());
   for (std::size_t i = 0; i < result.source.size(); ++i)
     result.source[i] = static_cast<VertexId>(i);

@@ -15,6 +15,7 @@ struct VertexMesh {
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
   std::vector<Vec4> colors;
+  std::vector<Vec4> tangents;
   std::vector<Triangle> faces;
   std::vector<VertexId> source;  ///< one a vertex: the mesh's position it repeats
 };

@@ -26,7 +26,7 @@ int limit_of(GLenum name) {
 
 }  // namespace
 
-Result<RenderTargets> RenderTargets::create(int width, int height, int samples) {
+Result<RenderTargets> RenderTargets::create(int width, int height, int samples, Stencil stencil) {
   const int largest = std::min(limit_of(GL_MAX_TEXTURE_SIZE), limit_of(GL_MAX_RENDERBUFFER_SIZE));
   if (width > largest || height > largest) return too_large(width, height, samples);
   gl::take_out_of_memory();
@@ -34,15 +34,18 @@ Result<RenderTargets> RenderTargets::create(int width, int height, int samples) 
   targets.width_ = width;
   targets.height_ = height;
   targets.samples_ = samples;
+  targets.stencil_ = stencil;
+  const bool has_stencil = stencil != Stencil::kNone;
   targets.color_ = gl::make_texture_2d(GL_SRGB8_ALPHA8, width, height, samples);
-  targets.depth_ = gl::make_texture_2d(GL_DEPTH_COMPONENT32F, width, height, samples);
+  targets.depth_ = gl::make_texture_2d(has_stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F, width, height, samples);
   targets.resolved_ = gl::make_texture_2d(GL_RGBA8, width, height);
   if (gl::take_out_of_memory()) return too_large(width, height, samples);
   targets.faces_ = gl::make_framebuffer();
   targets.lines_ = gl::make_framebuffer();
   targets.output_ = gl::make_framebuffer();
   glNamedFramebufferTexture(targets.faces_.id(), GL_COLOR_ATTACHMENT0, targets.color_.id(), 0);
-  glNamedFramebufferTexture(targets.faces_.id(), GL_DEPTH_ATTACHMENT, targets.depth_.id(), 0);
+  glNamedFramebufferTexture(targets.faces_.id(), has_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+                            targets.depth_.id(), 0);
   glNamedFramebufferTexture(targets.lines_.id(), GL_COLOR_ATTACHMENT0, targets.color_.id(), 0);
   glNamedFramebufferTexture(targets.output_.id(), GL_COLOR_ATTACHMENT0, targets.resolved_.id(), 0);
   if (!complete(targets.faces_) || !complete(targets.lines_) || !complete(targets.output_) ||
@@ -61,16 +64,23 @@ void RenderTargets::begin_faces() const {
   glDepthMask(GL_TRUE);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_CULL_FACE);
+  glDisable(GL_STENCIL_TEST);
   glDisable(GL_BLEND);
   const GLfloat nothing[4] = {0, 0, 0, 0};
   const GLfloat far_plane = 1.0f;
   glClearNamedFramebufferfv(faces_.id(), GL_COLOR, 0, nothing);
-  glClearNamedFramebufferfv(faces_.id(), GL_DEPTH, 0, &far_plane);
+  if (has_stencil()) {
+    glStencilMask(0xff);
+    glClearNamedFramebufferfi(faces_.id(), GL_DEPTH_STENCIL, 0, far_plane, 0);
+  } else {
+    glClearNamedFramebufferfv(faces_.id(), GL_DEPTH, 0, &far_plane);
+  }
 }
 
 void RenderTargets::begin_lines() const {
   glBindFramebuffer(GL_FRAMEBUFFER, lines_.id());
   glDisable(GL_DEPTH_TEST);
+  glDisable(GL_STENCIL_TEST);
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
@@ -85,6 +95,7 @@ Result<Image> RenderTargets::resolve(gl::Context& context, const Vec4& backgroun
   glBindTextureUnit(0, color_.id());
   glBindFramebuffer(GL_FRAMEBUFFER, output_.id());
   glDisable(GL_DEPTH_TEST);
+  glDisable(GL_STENCIL_TEST);
   glDisable(GL_BLEND);
   glDisable(GL_FRAMEBUFFER_SRGB);
   const gl::VertexArray no_attributes = gl::make_vertex_array();

@@ -37,6 +37,14 @@ Vec3 unit_normal(const Vec3& n) {
   return length > 0.0 && std::isfinite(length) ? Vec3(d / length) : Vec3(0.0f, 0.0f, 1.0f);
 }
 
+/// Likewise tangents; those of faces without extent in the picture are zero.
+Vec4 unit_tangent(const Vec4& t) {
+  const Vec3 along(t);
+  const float length = glm::dot(along, along);
+  const bool usable = length > 0.0f && std::isfinite(length);
+  return Vec4(usable ? unit_normal(along) : Vec3(1, 0, 0), t.w < 0.0f ? -1.0f : 1.0f);
+}
+
 float unit_interval(float value) {
   return value > 0.0f ? std::min(value, 1.0f) : 0.0f;
 }
@@ -135,6 +143,9 @@ std::vector<std::vector<std::uint32_t>> Builder::faces_by_material() const {
 Json Builder::add_primitives() {
   Json attributes = {{"POSITION", add_positions()}};
   if (!vertices_.normals.empty()) attributes["NORMAL"] = add_attribute(vertices_.normals, "VEC3", unit_normal);
+  // Without normals glTF ignores tangents.
+  if (!vertices_.normals.empty() && !vertices_.tangents.empty())
+    attributes["TANGENT"] = add_attribute(vertices_.tangents, "VEC4", unit_tangent);
   if (!vertices_.uvs.empty()) {
     attributes["TEXCOORD_0"] =
         add_attribute(vertices_.uvs, "VEC2", [](const Vec2& uv) { return Vec2(uv.x, 1.0f - uv.y); });

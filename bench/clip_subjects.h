@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "limn/asset/clip_asset.h"
+#include "limn/base/result.h"
+
+namespace limn::bench {
+
+/// What Sander et al. 2000 report of a model in Table 1, in milliseconds.
+struct PublishedRow {
+  double original = 0, extraction = 0, stencil = 0, coarse = 0, total = 0, speed_up = 0, antialiasing = 0;
+};
+
+/// A model to clip: which, how small a hull, and what the paper says of it.
+struct SubjectName {
+  std::string name;
+  std::size_t faces = 0;       ///< of the original: 0 for the file's own
+  std::size_t hull_faces = 0;
+  PublishedRow paper{};
+};
+
+/// A model with what the contestants draw.
+struct Subject {
+  SubjectName about;
+  Mesh original;  ///< welded, a normal a vertex, faces and vertices in the order that caches like best
+  Mesh simplified;  ///< as many faces as the hull, likewise
+  ClipAsset asset;
+};
+
+/// The rows of the table: the paper's models or what stands for them, and others of their kinds.
+std::vector<SubjectName> table_subjects();
+
+/// Reads or makes a model. Errors: those of reading it; kUnsuitable where it is not closed.
+Result<Mesh> original_of(const SubjectName& about, const std::filesystem::path& models);
+
+/// The whole subject. Errors: as original_of(), and those of making the hull.
+Result<Subject> make_subject(const SubjectName& about, const std::filesystem::path& models);
+
+/// A mesh of `faces` faces by plain simplification, ready to draw: a normal a vertex, ordered for caches.
+Mesh simplified_to(const Mesh& original, std::size_t faces);
+
+/// A closed mesh around `original`, made quickly: an icosphere where `faces` is 0, else a simplified mesh moved outwards.
+/// What the stencil leaves of it does not depend on its shape as long as it encloses the original.
+Mesh crude_hull(const Mesh& original, std::size_t faces);
+
+}  // namespace limn::bench

@@ -1,0 +1,4 @@
+#version 450 core
+// No colour: the stencil counts.
+
+void main() {}
