@@ -169,7 +169,7 @@ Run declare_clip(OptionTable& table) {
 
 Verb clip_verb() {
   return Verb{"clip",
-              "turns a dense mesh into a small asset: a coarse hull with maps, and the exact outline to clip it to",
+              "makes a small asset of a dense mesh: a coarse hull, its maps, the exact outline",
               "MODEL -o FILE.glb [--faces N] [options]",
               true,
               {{{"limn clip dense.ply -o knot.glb --faces 200 --size 256", "a hull of 200 faces; opens in any viewer"},

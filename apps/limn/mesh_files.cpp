@@ -81,6 +81,8 @@ Result<LoadedMesh> load(Session& session, const InputOptions& options) {
   if (!read) return tl::unexpected(read.error());
   const std::string name = options.path == "-" ? "standard input" : options.path;
   LoadedMesh loaded{std::move(read->mesh), read->format, std::move(read->notes), {}, {}};
+  loaded.asset = load_asset(session, options, loaded.format);
+  if (loaded.asset) std::erase(loaded.notes, "extensions left out: LIMN_silhouette");  // nothing was
   for (const std::string& note : loaded.notes)
     session.say(fmt::format("{}: {}", name, note));
   if (options.repair) {
@@ -91,7 +93,6 @@ Result<LoadedMesh> load(Session& session, const InputOptions& options) {
     for (const std::string& change : loaded.repairs)
       session.say(fmt::format("{}: repair: {}", name, change));
   }
-  loaded.asset = load_asset(session, options, loaded.format);
   return loaded;
 }
 

@@ -147,6 +147,11 @@ TEST_F(Json, OfHullIsAsDocumented) {
   expect_schema(limn.json({"hull", "knot.hulls", "-o", "hull.ply", "--faces", "300"}), "hull");
 }
 
+TEST_F(Json, OfClipIsAsDocumented) {
+  expect_schema(limn.json({"clip", "knot.ply", "-o", "knot.glb", "--faces", "200", "--size", "64"}), "clip");
+  expect_schema(limn.json({"info", "knot.glb"}), "info");
+}
+
 TEST_F(Json, OfCompareIsAsDocumented) {
   expect_schema(limn.json({"compare", "knot.ply", "knot.ply", "--views", "2", "--size", "64"}), "compare");
 }

@@ -60,6 +60,18 @@ std::vector<float> corner_distances(const Mesh& surface, const FaceTree& referen
   return distances;
 }
 
+/// Leaves the pieces that may lie farthest, as many as can still be cut; of the others the bound is as good as it gets.
+void keep_farthest(std::vector<std::size_t>& pieces, std::size_t most, const std::vector<SurfaceDistance>& found,
+                   SurfaceDistance& total) {
+  if (pieces.size() <= most) return;
+  const auto end = pieces.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(pieces.begin(), end, pieces.end(), [&found](std::size_t a, std::size_t b) {
+    return found[a].bound != found[b].bound ? found[a].bound > found[b].bound : a < b;
+  });
+  total.bound = std::max(total.bound, found[*end].bound);
+  pieces.erase(end, pieces.end());
+}
+
 }  // namespace
 
 SurfaceDistance distance_from(const Mesh& surface, const FaceTree& reference) {
@@ -75,18 +87,18 @@ SurfaceDistance distance_from(const Mesh& surface, const FaceTree& reference) {
     left -= pieces.size();
     for (const SurfaceDistance& piece : found)
       total.reached = std::max(total.reached, piece.reached);
-    std::vector<Piece> next;
-    double doubtful = 0.0;
+    std::vector<std::size_t> doubtful;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const bool settled = found[i].bound <= kSlack * total.reached;
-      if (settled) total.bound = std::max(total.bound, found[i].bound);
-      if (!settled) doubtful = std::max(doubtful, found[i].bound);
-      if (!settled) cut(pieces[i], next);
+      if (found[i].bound > kSlack * total.reached)
+        doubtful.push_back(i);
+      else
+        total.bound = std::max(total.bound, found[i].bound);
     }
-    if (next.size() > left) {
-      total.bound = std::max(total.bound, doubtful);
-      break;
-    }
+    // No more than half of what is left, so that the few largest can be cut on and on.
+    keep_farthest(doubtful, left / 8, found, total);
+    std::vector<Piece> next;
+    for (const std::size_t i : doubtful)
+      cut(pieces[i], next);
     pieces = std::move(next);
   }
   total.bound = std::max(total.bound, total.reached);
