@@ -190,7 +190,49 @@ void turn(std::vector<HullStep>& steps) {
   }
 }
 
-Result<Hull> shrink(Shell shell, const HullOptions& options, std::vector<VertexId>* heirs) {
+/// Texture coordinates of the shell's vertices, where each has but one; else none.
+std::vector<Vec2> uvs_of(const Mesh& mesh, const std::vector<VertexId>& weld, const Shell& shell) {
+  std::vector<Vec2> uvs(mesh.positions.size());
+  std::vector<std::uint8_t> known(mesh.positions.size(), 0);
+  for (FaceId f = 0; f < mesh.faces.size(); ++f) {
+    for (int c = 0; c < 3; ++c) {
+      const VertexId v = weld[mesh.faces[f][static_cast<std::size_t>(c)]];
+      const Vec2& uv = mesh.corner(mesh.uvs, f, c);
+      if (known[v] != 0 && uvs[v] != uv) return {};
+      uvs[v] = uv;
+      known[v] = 1;
+    }
+  }
+  std::vector<Vec2> of_shell;
+  for (const VertexId source : shell.source_vertex) {
+    if (source == kInvalidId) return {};
+    of_shell.push_back(uvs[weld[source]]);
+  }
+  return of_shell;
+}
+
+/// What becomes of them: a new vertex takes those of the point of the edge that it is nearest to.
+void carry_uvs(const std::vector<HullStep>& steps, const std::vector<Vec3>& positions, std::vector<Vec2>& uvs) {
+  std::vector<Vec3> places = positions;
+  for (const HullStep& step : steps) {
+    if (step.kind == HullStep::Kind::kCut) {
+      for (const VertexId v : {step.kept, step.removed, step.left}) {
+        uvs.push_back(Vec2(uvs[v]));
+        places.push_back(Vec3(places[v]));
+      }
+    }
+    if (step.kind != HullStep::Kind::kCollapse) continue;
+    const DVec3 from(places[step.kept]);
+    const DVec3 edge = DVec3(places[step.removed]) - from;
+    const double square = glm::dot(edge, edge);
+    const double along = square > 0.0 ? std::clamp(glm::dot(DVec3(step.after) - from, edge) / square, 0.0, 1.0) : 0.0;
+    const auto t = static_cast<float>(along);
+    uvs[step.kept] = uvs[step.kept] * (1.0f - t) + uvs[step.removed] * t;
+    places[step.kept] = step.after;
+  }
+}
+
+Result<Hull> shrink(Shell shell, const HullOptions& options, std::vector<VertexId>* heirs, std::vector<Vec2>* uvs) {
   const bool inner = options.side == HullSide::kInner;
   Hull hull;
   RingSurface surface(shell, inner);
@@ -206,6 +248,7 @@ Result<Hull> shrink(Shell shell, const HullOptions& options, std::vector<VertexI
   report.volume = volume_of(hull.mesh.positions, hull.mesh.faces);
   report.volume_ratio = report.volume_before != 0.0 ? report.volume / report.volume_before : 0.0;
   if (heirs != nullptr) *heirs = heirs_of(shell.positions.size(), shrinker.steps(), surface);
+  if (uvs != nullptr && !uvs->empty()) carry_uvs(shrinker.steps(), shell.positions, *uvs);
   if (options.keep_steps) {
     hull.steps = std::move(shrinker.steps());
     if (inner) turn(hull.steps);
@@ -224,16 +267,26 @@ Result<void> check(const HullOptions& options) {
 
 Result<Hull> build_hull(Shell shell, const HullOptions& options) {
   if (Result<void> checked = check(options); !checked) return tl::unexpected(checked.error());
-  return shrink(std::move(shell), options, nullptr);
+  return shrink(std::move(shell), options, nullptr, nullptr);
 }
 
 Result<Hull> build_hull(const Mesh& mesh, const HullOptions& options) {
   if (Result<void> checked = check(options); !checked) return tl::unexpected(checked.error());
   Result<Shell> shell = make_shell(mesh);
   if (!shell) return tl::unexpected(shell.error());
+  const std::vector<VertexId> weld = weld_positions(mesh.positions);
+  std::vector<Vec2> uvs;
+  if (!mesh.uvs.empty()) {
+    uvs = uvs_of(mesh, weld, *shell);
+    if (uvs.empty()) shell->notes.emplace_back("dropped texture coordinates: they have seams");
+  }
   std::vector<VertexId> heirs;
-  Result<Hull> hull = shrink(std::move(*shell), options, &heirs);
+  Result<Hull> hull = shrink(std::move(*shell), options, &heirs, &uvs);
   if (!hull) return hull;
+  if (!uvs.empty()) {
+    for (const VertexId v : hull->shell_vertex)
+      hull->mesh.uvs.values.push_back(uvs[v]);
+  }
   std::vector<VertexId> place(heirs.size(), kInvalidId);
   for (VertexId v = 0; v < hull->shell_vertex.size(); ++v)
     place[hull->shell_vertex[v]] = v;
@@ -244,7 +297,6 @@ Result<Hull> build_hull(const Mesh& mesh, const HullOptions& options) {
     hull->vertex_of_original[source] = place[heirs[v]];
   }
   // Positions that were welded go where their first did.
-  const std::vector<VertexId> weld = weld_positions(mesh.positions);
   for (VertexId v = 0; v < weld.size(); ++v)
     hull->vertex_of_original[v] = hull->vertex_of_original[weld[v]];
   return hull;
