@@ -47,6 +47,9 @@ TEST_F(Examples, OfSilhouetteRun) {
   run_all("silhouette");
 }
 #endif
+TEST_F(Examples, OfHullRun) {
+  run_all("hull");
+}
 TEST_F(Examples, OfCompareRun) {
   run_all("compare");
 }
@@ -56,7 +59,7 @@ TEST_F(Examples, OfTheOthersRun) {
 }
 
 TEST_F(Examples, CoverEveryVerb) {
-  std::size_t count = 9;
+  std::size_t count = 10;
 #ifdef LIMN_WITH_GL
   ++count;
 #endif

@@ -141,6 +141,12 @@ TEST_F(Json, OfAListOfEdgesIsAsDocumented) {
 
 #endif
 
+TEST_F(Json, OfHullIsAsDocumented) {
+  expect_schema(limn.json({"hull", "knot.ply", "-o", "hull.ply", "--faces", "200"}), "hull");
+  expect_schema(limn.json({"hull", "knot.ply", "--faces", "200", "--sequence", "knot.hulls", "--inner"}), "hull");
+  expect_schema(limn.json({"hull", "knot.hulls", "-o", "hull.ply", "--faces", "300"}), "hull");
+}
+
 TEST_F(Json, OfCompareIsAsDocumented) {
   expect_schema(limn.json({"compare", "knot.ply", "knot.ply", "--views", "2", "--size", "64"}), "compare");
 }

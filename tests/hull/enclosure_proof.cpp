@@ -1,5 +1,6 @@
 // Proves hulls of many meshes at three scales, and says what it looked at. Exit code 1 where anything is wrong.
-//   hull_enclosure_proof [--random N] [--samples N] [--strict] [--scales 1e-3,1,1e3] [MODEL…]
+//   hull_enclosure_proof [--first SEED] [--random N] [--samples N] [--strict] [--scales 1e-3,1,1e3] [--faces
+//   4000,500,60] [MODEL…]
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -18,12 +19,24 @@ namespace limn::test {
 namespace {
 
 struct Settings {
-  std::size_t random = 12;
+  std::size_t first = 0, random = 12;  ///< seeds of random solids
   std::size_t samples = 300;
   bool strict = false;
   std::vector<double> scales{1e-3, 1, 1e3};
+  std::vector<std::size_t> targets{4000, 500, 60};  ///< of models
   std::vector<std::string> models;
 };
+
+/// "1,2,3"
+std::vector<double> numbers_of(const char* text) {
+  std::vector<double> numbers;
+  while (text != nullptr) {
+    numbers.push_back(std::strtod(text, nullptr));
+    text = std::strchr(text, ',');
+    if (text != nullptr) ++text;
+  }
+  return numbers;
+}
 
 Settings settings_of(int count, char** arguments) {
   Settings settings;
@@ -32,15 +45,18 @@ Settings settings_of(int count, char** arguments) {
     const char* const value = i + 1 < count ? arguments[i + 1] : "0";
     if (argument == "--random") {
       settings.random = std::strtoull(value, nullptr, 10), ++i;
+    } else if (argument == "--first") {
+      settings.first = std::strtoull(value, nullptr, 10), ++i;
     } else if (argument == "--samples") {
       settings.samples = std::strtoull(value, nullptr, 10), ++i;
     } else if (argument == "--strict") {
       settings.strict = true;
     } else if (argument == "--scales") {
-      settings.scales.clear();
-      for (const char* at = value; at != nullptr;
-           at = std::strchr(at, ',') != nullptr ? std::strchr(at, ',') + 1 : nullptr)
-        settings.scales.push_back(std::strtod(at, nullptr));
+      settings.scales = numbers_of(value), ++i;
+    } else if (argument == "--faces") {
+      settings.targets.clear();
+      for (const double faces : numbers_of(value))
+        settings.targets.push_back(static_cast<std::size_t>(faces));
       ++i;
     } else {
       settings.models.push_back(argument);
@@ -59,9 +75,9 @@ void print(const std::string& name, const EnclosureTally& tally, double seconds)
   std::printf(
       "%-34s hulls %zu (%zu reached), vertices %zu, samples %zu, on the hull %zu, OUTSIDE %zu, of no inside %zu, "
       "strays %zu, "
-      "elsewhere %zu, fewer %zu, steps %zu, proved %zu, %.1f s%s%s\n",
+      "elsewhere %zu, lost %zu, steps %zu, proved %zu, %.1f s%s%s\n",
       name.c_str(), tally.hulls, tally.reached, tally.vertices, tally.samples, tally.on_surface, tally.outside,
-      tally.nothing_inside, tally.strays, tally.elsewhere, tally.fewer, tally.steps, tally.proved, seconds,
+      tally.nothing_inside, tally.strays, tally.elsewhere, tally.lost, tally.steps, tally.proved, seconds,
       tally.refused.empty() ? "" : ("; refused: " + tally.refused).c_str(),
       tally.objection.empty() ? "" : ("; WRONG: " + tally.objection).c_str());
   std::fflush(stdout);
@@ -84,7 +100,7 @@ class Proof {
     }
     total_.add(all);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    if (say || !all.objection.empty() || !all.refused.empty()) print(name, all, seconds);
+    if (say || all.strays > 0 || !all.objection.empty() || !all.refused.empty()) print(name, all, seconds);
   }
 
   const EnclosureTally& total() const { return total_; }
@@ -104,10 +120,10 @@ int run(const Settings& settings) {
       return 2;
     }
     const std::string name = path.substr(path.find_last_of('/') + 1);
-    for (const std::size_t faces : {4000u, 500u, 60u})
+    for (const std::size_t faces : settings.targets)
       proof.look_at(name + " to " + std::to_string(faces), model->mesh, faces, 1, true);
   }
-  for (std::uint64_t seed = 0; seed < settings.random; ++seed) {
+  for (std::uint64_t seed = settings.first; seed < settings.first + settings.random; ++seed) {
     const Mesh mesh = random_solid(seed);
     Random random(seed);
     const std::size_t targets[] = {4, 8, 20, mesh.faces.size() / 10, mesh.faces.size() / 3};

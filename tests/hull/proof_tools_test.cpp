@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "limn/base/random.h"
+#include "limn/hull/progressive_hull.h"
 #include "limn/hull/shell.h"
 #include "limn/mesh/shapes.h"
 
@@ -119,6 +120,41 @@ TEST(Certificate, HoldsForAMoveOutwardsAndNotInwards) {
   drawn.step.after = 0.9f * drawn.step.before;
   EXPECT_FALSE(check_certificate(drawn.shell, std::span(&drawn.step, 1), false).objection.empty());
   EXPECT_TRUE(check_certificate(drawn.shell, std::span(&drawn.step, 1), true).objection.empty());
+}
+
+/// Steps of a hull as it is made, or with one of them changed.
+struct Made {
+  Result<Hull> hull;
+  explicit Made(HullSide side)
+      : hull(build_hull(*make_shape(Shape::kAsteroid, {.faces = 1000}),
+                        {.faces = 60, .side = side, .keep_steps = true})) {}
+
+  std::string objection(const std::vector<HullStep>& steps, bool inwards) const {
+    return check_certificate(hull->shell, steps, inwards).objection;
+  }
+};
+
+TEST(Certificate, HoldsForHullsAndForNoneOfThemTamperedWith) {
+  for (const HullSide side : {HullSide::kOuter, HullSide::kInner}) {
+    const bool inwards = side == HullSide::kInner;
+    const Made made(side);
+    ASSERT_TRUE(made.hull);
+    const std::vector<HullStep>& steps = made.hull->steps;
+    EXPECT_EQ(made.objection(steps, inwards), "");
+    EXPECT_NE(made.objection(steps, !inwards), "");
+    for (std::size_t i = 0; i < steps.size(); i += 29) {
+      std::vector<HullStep> bad = steps;
+      // Towards the middle for a hull outside, away from it for one inside: back over planes it had to clear.
+      bad[i].after *= inwards ? 1.01f : 0.99f;
+      EXPECT_NE(made.objection(bad, inwards), "") << "moved " << i;
+      bad = steps;
+      bad.erase(bad.begin() + static_cast<std::ptrdiff_t>(i));
+      EXPECT_NE(made.objection(bad, inwards), "") << "left out " << i;
+      bad = steps;
+      std::swap(bad[i].kept, bad[i].removed);
+      EXPECT_NE(made.objection(bad, inwards), "") << "turned " << i;
+    }
+  }
 }
 
 }  // namespace

@@ -250,39 +250,97 @@ class Checker {
     return remove(part);
   }
 
-  /// Parts may be dropped together: the fewest of the coming drops that are proved at once; 0 where none are. Nothing
-  /// of what stays comes near the box of those that go, and there it winds once at least: still inside when they have
-  /// gone. Tetrahedra that wind outwards are left out of account, since they can only add to that.
+  /// Parts may be dropped together: the fewest of the coming drops that are proved at once; 0 where none are. All over
+  /// the box of each the others wind once at least: still inside when it has gone. Of a tetrahedron that winds outwards
+  /// it is enough to look at its own inside; those that stay are left out of account, since they can only add.
   std::size_t drop(std::span<const HullStep> steps) {
+    std::vector<std::set<FaceId>> parts;
     std::set<FaceId> going;
-    Bounds box;
     for (std::size_t i = 0; i < steps.size() && steps[i].kind == HullStep::Kind::kDrop; ++i) {
-      if (steps[i].kept >= surface_.places.size()) return 0;
-      for (const FaceId f : part_of(steps[i].kept)) {
-        going.insert(f);
-        for (const VertexId v : surface_.faces[f])
-          box.add(surface_.places[v]);
-      }
-      if (going.empty() || !is_hidden(going, box, surface_.places[steps[i].kept])) continue;
+      if (steps[i].kept >= surface_.places.size() || surface_.at[steps[i].kept].empty()) return 0;
+      parts.push_back(part_of(steps[i].kept));
+      going.insert(parts.back().begin(), parts.back().end());
+      if (!are_hidden(parts, going)) continue;
       remove(going);
       return i + 1;
     }
     return 0;
   }
 
-  bool is_hidden(const std::set<FaceId>& going, const Bounds& box, const Vec3& point) {
-    std::vector<Triangle> others;
+  bool are_hidden(const std::vector<std::set<FaceId>>& parts, const std::set<FaceId>& going) {
+    std::vector<FaceId> others;
+    std::vector<Triangle> corners;
     for (FaceId f = 0; f < surface_.faces.size(); ++f) {
-      if (!surface_.at[surface_.faces[f][0]].contains(f) || going.contains(f)) continue;
-      if (!is_clear(box, f)) {
-        if (!is_outward_tetrahedron(f)) return false;
-        continue;
-      }
-      if (!is_outward_tetrahedron(f)) others.push_back(surface_.faces[f]);
+      if (!surface_.at[surface_.faces[f][0]].contains(f) || going.contains(f) || is_outward_tetrahedron(f)) continue;
+      others.push_back(f);
+      corners.push_back(surface_.faces[f]);
     }
-    if (Winding(surface_.places, others).at(DVec3(point)) <= 0) return false;
-    check_.proved += others.size();
+    const Winding winding(surface_.places, corners);
+    for (const std::set<FaceId>& part : parts) {
+      if (!is_hidden(part, others, winding)) return false;
+    }
     return true;
+  }
+
+  /// From some point in the region, a straight way leads to all others of it. It crosses the plane of a face once at
+  /// most, and winding numbers fall there only where the face has the point behind it (or in its plane).
+  bool is_hidden(const std::set<FaceId>& part, const std::vector<FaceId>& others, const Winding& winding) {
+    const bool is_tetrahedron = is_outward_tetrahedron(*part.begin());
+    Bounds box;
+    DVec3 sum(0.0);
+    std::set<VertexId> vertices;
+    for (const FaceId f : part)
+      vertices.insert(surface_.faces[f].begin(), surface_.faces[f].end());
+    for (const VertexId v : vertices) {
+      box.add(surface_.places[v]);
+      sum += DVec3(surface_.places[v]);
+    }
+    std::vector<FaceId> near;
+    for (const FaceId f : others) {
+      if (!is_clear(box, f) && !(is_tetrahedron && is_apart(part, f))) near.push_back(f);
+    }
+    const DVec3 middle = sum / static_cast<double>(vertices.size());
+    for (const double nearness : {0.0, 0.5, 0.9, 0.99}) {
+      for (const VertexId v : vertices) {
+        const DVec3 point = middle + nearness * (DVec3(surface_.places[v]) - middle);
+        if (is_tetrahedron && !is_behind_all(part, point)) continue;
+        int falls = 0;
+        for (const FaceId f : near)
+          falls += side_from(f, point) <= 0;
+        if (winding.is_on_surface(point) || winding.at(point) <= falls) continue;
+        check_.proved += others.size();
+        return true;
+      }
+    }
+    return false;
+  }
+
+  int side_from(FaceId f, const DVec3& point) const {
+    const Triangle& t = surface_.faces[f];
+    return exact_side(DVec3(surface_.places[t[0]]), DVec3(surface_.places[t[1]]), DVec3(surface_.places[t[2]]), point);
+  }
+
+  bool is_behind_all(const std::set<FaceId>& part, const DVec3& point) const {
+    for (const FaceId f : part) {
+      if (side_from(f, point) >= 0) return false;
+    }
+    return true;
+  }
+
+  /// Whether a plane of the tetrahedron, or the face's, parts their insides.
+  bool is_apart(const std::set<FaceId>& tetrahedron, FaceId face) const {
+    int least = 1, most = -1;
+    for (const FaceId f : tetrahedron) {
+      int nearest = 1;
+      for (const VertexId v : surface_.faces[face])
+        nearest = std::min(nearest, surface_.side_of(f, surface_.places[v]));
+      if (nearest >= 0) return true;
+      for (const VertexId v : surface_.faces[f]) {
+        least = std::min(least, surface_.side_of(face, surface_.places[v]));
+        most = std::max(most, surface_.side_of(face, surface_.places[v]));
+      }
+    }
+    return least >= 0 || most <= 0;
   }
 
   bool is_outward_tetrahedron(FaceId f) const {

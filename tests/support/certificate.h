@@ -19,9 +19,10 @@ struct CertificateCheck {
 /// that the certificate rests on (Sander et al. 2000, section 3; docs/hull.md). The new place of a collapse's or move's
 /// vertex lies behind no face around what it replaces; a flip's fourth corner not behind the first three; a cavity that
 /// fills up shows a point its outer sides only: then the winding number rises or stays at every point in space. A part
-/// that is dropped lies in a box that nothing else comes near, where the others wind once at least. Also that every
-/// step leaves each edge with two faces that run along it in opposite directions. \param inwards  the steps of an inner
-/// hull: all of it on the shell turned inside out
+/// that is dropped lies where the others wind once at least. Also that every step leaves each edge with two faces that
+/// run along it in opposite directions.
+///
+/// \param inwards  the steps of an inner hull: all of it on the shell turned inside out
 CertificateCheck check_certificate(const Shell& shell, std::span<const HullStep> steps, bool inwards);
 
 }  // namespace limn::test

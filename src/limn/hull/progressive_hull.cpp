@@ -9,8 +9,10 @@
 
 #include "limn/hull/certificate.h"
 #include "limn/hull/collapser.h"
+#include "limn/hull/inside_guard.h"
 #include "limn/hull/part_surgery.h"
 #include "limn/hull/ring_surface.h"
+#include "limn/hull/shell_uvs.h"
 #include "limn/hull/strict_guard.h"
 #include "limn/mesh/normals.h"
 #include "limn/mesh/topology.h"
@@ -42,13 +44,22 @@ double volume_of(std::span<const Vec3> positions, std::span<const Triangle> face
   return volume;
 }
 
+/// What must consent to every step besides its certificate; nullptr where nothing need.
+std::unique_ptr<StepGuard> guard_for(const Shell& shell, const HullOptions& options) {
+  if (!options.strict && options.side == HullSide::kOuter) return nullptr;
+  auto guards = std::make_unique<StepGuards>();
+  if (options.side == HullSide::kInner) guards->add(std::make_unique<InsideGuard>(shell));
+  if (options.strict) guards->add(std::make_unique<StrictGuard>(shell));
+  return guards;
+}
+
 /// Takes a surface to a number of faces.
 class Shrinker {
  public:
   Shrinker(const Shell& shell, RingSurface& surface, const HullOptions& options)
       : surface_(surface),
         options_(options),
-        guard_(options.strict ? std::make_unique<StrictGuard>(shell) : nullptr),
+        guard_(guard_for(shell, options)),
         collapser_(surface, steps_, certificate_, guard_.get()),
         surgery_(surface, steps_, certificate_),
         first_faces_(surface.live_faces()) {}
@@ -124,7 +135,7 @@ class Shrinker {
   const HullOptions& options_;
   std::vector<HullStep> steps_;
   Certificate certificate_;
-  std::unique_ptr<StrictGuard> guard_;
+  std::unique_ptr<StepGuard> guard_;
   Collapser collapser_;
   PartSurgery surgery_;
   std::size_t first_faces_;
@@ -182,48 +193,6 @@ void turn(std::vector<HullStep>& steps) {
   }
 }
 
-/// Texture coordinates of the shell's vertices, where each has but one; else none.
-std::vector<Vec2> uvs_of(const Mesh& mesh, const std::vector<VertexId>& weld, const Shell& shell) {
-  std::vector<Vec2> uvs(mesh.positions.size());
-  std::vector<std::uint8_t> known(mesh.positions.size(), 0);
-  for (FaceId f = 0; f < mesh.faces.size(); ++f) {
-    for (int c = 0; c < 3; ++c) {
-      const VertexId v = weld[mesh.faces[f][static_cast<std::size_t>(c)]];
-      const Vec2& uv = mesh.corner(mesh.uvs, f, c);
-      if (known[v] != 0 && uvs[v] != uv) return {};
-      uvs[v] = uv;
-      known[v] = 1;
-    }
-  }
-  std::vector<Vec2> of_shell;
-  for (const VertexId source : shell.source_vertex) {
-    if (source == kInvalidId) return {};
-    of_shell.push_back(uvs[weld[source]]);
-  }
-  return of_shell;
-}
-
-/// What becomes of them: a new vertex takes those of the point of the edge that it is nearest to.
-void carry_uvs(const std::vector<HullStep>& steps, const std::vector<Vec3>& positions, std::vector<Vec2>& uvs) {
-  std::vector<Vec3> places = positions;
-  for (const HullStep& step : steps) {
-    if (step.kind == HullStep::Kind::kCut) {
-      for (const VertexId v : {step.kept, step.removed, step.left}) {
-        uvs.push_back(Vec2(uvs[v]));
-        places.push_back(Vec3(places[v]));
-      }
-    }
-    if (step.kind != HullStep::Kind::kCollapse) continue;
-    const DVec3 from(places[step.kept]);
-    const DVec3 edge = DVec3(places[step.removed]) - from;
-    const double square = glm::dot(edge, edge);
-    const double along = square > 0.0 ? std::clamp(glm::dot(DVec3(step.after) - from, edge) / square, 0.0, 1.0) : 0.0;
-    const auto t = static_cast<float>(along);
-    uvs[step.kept] = uvs[step.kept] * (1.0f - t) + uvs[step.removed] * t;
-    places[step.kept] = step.after;
-  }
-}
-
 Result<Hull> shrink(Shell shell, const HullOptions& options, std::vector<VertexId>* heirs, std::vector<Vec2>* uvs) {
   const bool inner = options.side == HullSide::kInner;
   Hull hull;
@@ -269,7 +238,7 @@ Result<Hull> build_hull(const Mesh& mesh, const HullOptions& options) {
   const std::vector<VertexId> weld = weld_positions(mesh.positions);
   std::vector<Vec2> uvs;
   if (!mesh.uvs.empty()) {
-    uvs = uvs_of(mesh, weld, *shell);
+    uvs = shell_uvs(mesh, *shell);
     if (uvs.empty()) shell->notes.emplace_back("dropped texture coordinates: they have seams");
   }
   std::vector<VertexId> heirs;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "limn/hull/shell_uvs.h"
 #include "limn/hull/step_replay.h"
 #include "limn/mesh/normals.h"
 
@@ -115,11 +116,8 @@ Mesh HullSequence::mesh_at(int level, std::vector<VertexId>* vertex_ids, std::ve
   Mesh mesh;
   std::vector<Vec2> uvs = uvs_;
   if (!uvs.empty()) {
-    for (const HullStep& step : (level < 0 ? inner_ : outer_).steps) {
-      if (step.kind != HullStep::Kind::kCut) continue;
-      for (const VertexId v : {step.kept, step.removed, step.left})
-        uvs.push_back(uvs[v]);
-    }
+    const std::span<const HullStep> steps = level < 0 ? inner_.steps : outer_.steps;
+    carry_uvs(steps.first(static_cast<std::size_t>(std::abs(level))), shell_.positions, uvs);
   }
   std::vector<VertexId> ids;
   for (VertexId v = 0; v < number.size(); ++v) {

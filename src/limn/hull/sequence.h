@@ -47,7 +47,8 @@ class HullSequence {
   int inner_level(std::size_t faces) const;
 
   /// A member as a mesh, its vertices and faces in ascending order of their ids. Normals are smooth, of its own faces;
-  /// uvs, where the sequence has any, those of the vertices that stayed.
+  /// uvs, where the sequence has any, as carry_uvs makes them
+  /// (shell_uvs.h).
   /// \param vertex_ids, face_ids  get the ids of its vertices and faces, the shell's where they are below its counts,
   /// else of what cuts made on the way; may be nullptr Same bits whichever way the level was come to. Cost: linear in
   /// the shell and the steps from it. \pre innermost() <= level <= outermost()
