@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::size_t kSeldom = 1024;       // collapses between two reports of progress
 constexpr std::size_t kCleanFrom = 16;      // hidden parts are looked for from so many times the target on
+constexpr std::size_t kEagerFrom = 6;       // costs are kept up to date from so many times the target on
 constexpr double kCleanStep = 0.75;         // and again when that much of what is above the target is left
 constexpr double kReaches[] = {10.0, 1e3};  // edge lengths that a vertex may move: farther when nothing is left
 
@@ -65,6 +66,7 @@ class Shrinker {
 
   /// \return false when cancelled
   bool run() {
+    collapser_.set_eager_from(kEagerFrom * options_.faces);
     for (const double reach : kReaches) {
       collapser_.set_reach(reach);
       std::size_t before = 0;
