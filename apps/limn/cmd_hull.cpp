@@ -8,6 +8,7 @@
 #include "limn/hull/progressive_hull.h"
 #include "limn/hull/self_intersections.h"
 #include "limn/hull/sequence_file.h"
+#include "limn/hull/shell_uvs.h"
 #include "limn/mesh/face_area.h"
 
 #include "gate.h"

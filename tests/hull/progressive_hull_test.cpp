@@ -99,7 +99,7 @@ TEST(ProgressiveHull, InnerHullsLieInside) {
 
 TEST(ProgressiveHull, EveryStepIsCertifiedAgainWhenTheStepsAreRepeated) {
   const Mesh mesh = *make_shape(Shape::kAsteroid, {.faces = 4000});
-  const Hull hull = must_build(mesh, {.faces = 100, .keep_steps = true});
+  const Hull hull = must_build(mesh, {.faces = 600, .keep_steps = true});
   ASSERT_EQ(hull.steps.size(), hull.report.collapses);
   std::vector<Vec3> positions = hull.shell.positions;
   std::vector<Triangle> faces = hull.shell.faces;
@@ -194,6 +194,25 @@ TEST(ProgressiveHull, OriginalVerticesKnowWhatTheyBecamePartOf) {
     EXPECT_LT(glm::distance(mesh.positions[v], hull.mesh.positions[heir]), 1.0f);
   }
   EXPECT_EQ(std::count(children.begin(), children.end(), 0), 0);
+}
+
+TEST(ProgressiveHull, TextureCoordinatesSurviveWithoutSeams) {
+  Mesh mesh = *make_shape(Shape::kAsteroid, {.faces = 2000});
+  mesh.uvs = {};
+  for (const Vec3& p : mesh.positions)
+    mesh.uvs.values.emplace_back(p.x, p.y);
+  const Hull hull = must_build(mesh, {.faces = 300});
+  ASSERT_EQ(hull.mesh.uvs.values.size(), hull.mesh.positions.size());
+  for (VertexId v = 0; v < hull.mesh.positions.size(); ++v) {
+    const Vec3& p = hull.mesh.positions[v];
+    EXPECT_LT(glm::distance(hull.mesh.uvs.values[v], Vec2(p.x, p.y)), 0.3f);
+  }
+  mesh.uvs.indices.assign(3 * mesh.faces.size(), 0);
+  for (std::size_t i = 0; i < mesh.uvs.indices.size(); ++i)
+    mesh.uvs.indices[i] = static_cast<std::uint32_t>(i % 7);
+  const Hull dropped = must_build(mesh, {.faces = 300});
+  EXPECT_TRUE(dropped.mesh.uvs.empty());
+  EXPECT_FALSE(dropped.report.notes.empty());
 }
 
 TEST(ProgressiveHull, StopsWhenAsked) {

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "limn/hull/progressive_hull.h"
+#include "limn/hull/shell_uvs.h"
 #include "limn/mesh/shapes.h"
 
 #include "hull/random_steps.h"
@@ -221,18 +223,25 @@ TEST(HullSequence, HeirsAreTheVerticesThatCollapsesKept) {
   }
 }
 
-TEST(HullSequence, CarriesUvsOfVerticesThatStay) {
-  const Shell shell = shell_of(Shape::kTorus, 300);
-  std::vector<Vec2> uvs;
-  for (std::size_t v = 0; v < shell.positions.size(); ++v)
-    uvs.emplace_back(static_cast<float>(v), 0.5f);
-  const auto sequence = HullSequence::make(shell, random_steps(shell, 80, 1), {}, uvs);
-  ASSERT_TRUE(sequence);
-  std::vector<VertexId> vertices;
-  const Mesh mesh = sequence->mesh_at(sequence->outermost(), &vertices);
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-    EXPECT_EQ(mesh.uvs.values.at(v), uvs[vertices[v]]);
-  EXPECT_FALSE(HullSequence::make(shell, {}, {}, {Vec2(0)}));
+TEST(HullSequence, GivesTheTextureCoordinatesThatTheHullHas) {
+  Mesh mesh = *make_shape(Shape::kAsteroid, {.faces = 600});
+  mesh.uvs = {};
+  for (const Vec3& p : mesh.positions)
+    mesh.uvs.values.emplace_back(p.x, p.y);
+  for (const HullSide side : {HullSide::kOuter, HullSide::kInner}) {
+    const bool inwards = side == HullSide::kInner;
+    const Result<Hull> hull = build_hull(mesh, {.faces = 60, .side = side, .keep_steps = true});
+    ASSERT_TRUE(hull);
+    ASSERT_FALSE(hull->mesh.uvs.empty());
+    const Result<HullSequence> sequence =
+        HullSequence::make(hull->shell, inwards ? std::vector<HullStep>{} : hull->steps,
+                           inwards ? hull->steps : std::vector<HullStep>{}, shell_uvs(mesh, hull->shell));
+    ASSERT_TRUE(sequence);
+    const Mesh last = sequence->mesh_at(inwards ? sequence->innermost() : sequence->outermost());
+    EXPECT_EQ(last.positions, hull->mesh.positions);
+    EXPECT_EQ(last.uvs.values, hull->mesh.uvs.values);
+  }
+  EXPECT_FALSE(HullSequence::make(*make_shell(mesh), {}, {}, {Vec2(0)}));
 }
 
 TEST(ShellUvs, AreThoseOfAMeshWithoutSeams) {

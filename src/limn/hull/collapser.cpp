@@ -48,7 +48,9 @@ void Collapser::offer_all() {
     Workspace workspace;
     for (std::size_t i = begin; i < end; ++i) {
       Candidate candidate;
-      if (place(edges[i].a, edges[i].b, workspace, candidate)) edges[i] = candidate;
+      const bool placed = place(edges[i].a, edges[i].b, workspace, candidate);
+      if (placed) edges[i] = candidate;
+      surface_.set_cost(candidate.a, candidate.b, placed ? candidate.cost : -1.0f);
     }
   });
   counts_.programs += edges.size();
@@ -75,15 +77,24 @@ void Collapser::offer_around(std::span<const VertexId> vertices) {
       ++touched_[link.vertex];
   }
   for (const VertexId v : vertices) {
-    for (const RingLink& link : surface_.ring(v))
-      offer(v, link.vertex);
+    for (const RingLink& link : surface_.ring(v)) {
+      if (link.cost < 0.0f || surface_.live_faces() <= eager_from_) {
+        offer(v, link.vertex);
+      } else {
+        // Costs seldom fall: the last one says soon enough when to look again.
+        queue_.push({v, link.vertex, born_[v] + born_[link.vertex], touched_[v] + touched_[link.vertex] - 1, Vec3(0),
+                     link.cost});
+      }
+    }
   }
 }
 
 void Collapser::offer(VertexId a, VertexId b) {
   Candidate candidate;
   ++counts_.programs;
-  if (place(a, b, workspace_, candidate)) {
+  const bool placed = place(a, b, workspace_, candidate);
+  surface_.set_cost(a, b, placed ? candidate.cost : -1.0f);
+  if (placed) {
     queue_.push(candidate);
   } else {
     ++counts_.infeasible;
@@ -180,7 +191,9 @@ bool Collapser::refresh(Candidate& c) {
   if (born_[c.a] + born_[c.b] != c.born) return false;
   if (touched_[c.a] + touched_[c.b] == c.touched) return true;
   ++counts_.programs;
-  if (!place(c.a, c.b, workspace_, c)) {
+  const bool placed = place(c.a, c.b, workspace_, c);
+  surface_.set_cost(c.a, c.b, placed ? c.cost : -1.0f);
+  if (!placed) {
     ++counts_.infeasible;
     return false;
   }

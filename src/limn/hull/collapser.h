@@ -37,6 +37,8 @@ class Collapser {
   void offer_all();
   /// Places every edge at some vertices anew: their surroundings have changed.
   void offer_around(std::span<const VertexId> vertices);
+  /// From so many faces on, costs around a new vertex are found at once; above, when their old ones come up.
+  void set_eager_from(std::size_t faces) { eager_from_ = faces; }
   /// How far from the edge's middle the vertex may go, in lengths of the edge.
   void set_reach(double reach) { reach_ = reach; }
 
@@ -75,6 +77,7 @@ class Collapser {
   Candidate edge_{};
   CollapseCounts counts_;
   double reach_ = 10.0;
+  std::size_t eager_from_ = 0;
 };
 
 }  // namespace limn

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "limn/base/orient3d.h"
 
@@ -24,6 +27,54 @@ Bounds joined(const Bounds& a, const Bounds& b) {
   both.add(b.high);
   return both;
 }
+
+/// On which sides of a triangle's plane three points lie.
+std::array<int, 3> sides_of(const Corners& plane, const Corners& points) {
+  std::array<int, 3> sides{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // Shared corners are common, and the orientation test is slow where its answer is 0.
+    const bool shared = points[i] == plane[0] || points[i] == plane[1] || points[i] == plane[2];
+    sides[i] = shared ? 0 : orient3d(plane[0], plane[1], plane[2], points[i]);
+  }
+  return sides;
+}
+
+/// Whether a side of one triangle leads from one side of the other to its other side, through it.
+bool passes_through(const Corners& one, const std::array<int, 3>& sides, const Corners& other) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t next = (i + 1) % 3;
+    if (sides[i] * sides[next] < 0 && segment_meets_triangle(one[i], one[next], other)) return true;
+  }
+  return false;
+}
+
+/// Whether one passes through the other. Not where either lies on one side of the other's plane, touching it perhaps.
+bool pass_through(const Corners& a, const Corners& b) {
+  const auto part = [](const std::array<int, 3>& sides) {
+    return std::min({sides[0], sides[1], sides[2]}) < 0 && std::max({sides[0], sides[1], sides[2]}) > 0;
+  };
+  const std::array<int, 3> b_from_a = sides_of(a, b);
+  if (!part(b_from_a)) return false;
+  const std::array<int, 3> a_from_b = sides_of(b, a);
+  return part(a_from_b) && (passes_through(b, b_from_a, a) || passes_through(a, a_from_b, b));
+}
+
+/// A triangle's plane, to tell boxes that surely keep clear of it. In double, with room for its rounding.
+class Slab {
+ public:
+  explicit Slab(const Corners& t) : origin_(t[0]), normal_(glm::cross(DVec3(t[1]) - origin_, DVec3(t[2]) - origin_)) {}
+
+  bool may_meet(const Bounds& box) const {
+    const DVec3 middle = (DVec3(box.low) + DVec3(box.high)) * 0.5 - origin_;
+    const DVec3 half = (DVec3(box.high) - DVec3(box.low)) * 0.5;
+    const DVec3 size = glm::abs(normal_);
+    return std::abs(glm::dot(normal_, middle)) <=
+           glm::dot(size, half) + 1e-12 * glm::dot(size, glm::abs(middle) + half);
+  }
+
+ private:
+  DVec3 origin_, normal_;
+};
 
 struct Item {
   DVec3 middle;
@@ -94,9 +145,15 @@ IntersectionTree::IntersectionTree(std::span<const Vec3> positions, std::span<co
 /// Calls visit with every face whose box meets this one until it gives false; whether it never did.
 template <class Visit>
 bool IntersectionTree::visit_boxes(const Bounds& box, Visit visit) const {
+  return visit_where([&](const Bounds& other) { return meet(other, box); }, visit);
+}
+
+/// The same of every face in boxes that `meets` says may hold something.
+template <class Meets, class Visit>
+bool IntersectionTree::visit_where(Meets meets, Visit visit) const {
   std::array<std::uint32_t, kStack> open;
   std::size_t count = 0;
-  if (meet(boxes_[1], box)) open[count++] = 1;
+  if (meets(boxes_[1])) open[count++] = 1;
   while (count > 0) {
     const std::uint32_t node = open[--count];
     if (node >= leaf_begin_) {
@@ -104,7 +161,7 @@ bool IntersectionTree::visit_boxes(const Bounds& box, Visit visit) const {
       continue;
     }
     for (const std::uint32_t below : {2 * node + 1, 2 * node}) {
-      if (meet(boxes_[below], box)) open[count++] = below;
+      if (meets(boxes_[below])) open[count++] = below;
     }
   }
   return true;
@@ -129,9 +186,17 @@ bool IntersectionTree::hits(std::span<const Corners> triangles, std::span<const 
 bool IntersectionTree::crosses(const Vec3& p, const Vec3& q) const {
   return !visit_boxes(bounds_of(std::array{p, q}), [&](FaceId face) {
     const Corners& t = corners_[face];
+    if (p == t[0] || p == t[1] || p == t[2]) return true;
     if (orient3d(t[0], t[1], t[2], p) * orient3d(t[0], t[1], t[2], q) >= 0) return true;
     return !segment_meets_triangle(p, q, t);
   });
+}
+
+bool IntersectionTree::pierces(const Corners& triangle) const {
+  const Bounds box = bounds_of(triangle);
+  const Slab slab(triangle);
+  const auto meets = [&](const Bounds& other) { return meet(other, box) && slab.may_meet(other); };
+  return !visit_where(meets, [&](FaceId face) { return !pass_through(triangle, corners_[face]); });
 }
 
 void IntersectionTree::for_each_hit_above(FaceId face, const std::function<void(FaceId)>& visit) const {

@@ -31,6 +31,9 @@ class IntersectionTree {
   /// Whether the way from p straight to q passes through a face from one side to the other. A face whose plane p lies
   /// in is not crossed, nor one that q lies on. Exact.
   bool crosses(const Vec3& p, const Vec3& q) const;
+  /// Whether a side of the triangle passes through a face, or a side of a face through the triangle, from one side to
+  /// the other. Touching is not enough. Exact.
+  bool pierces(const Corners& triangle) const;
 
   /// Takes a face out. Removing it again changes nothing. Cost: logarithmic.
   void remove(FaceId face);
@@ -43,6 +46,8 @@ class IntersectionTree {
  private:
   template <class Visit>
   bool visit_boxes(const Bounds& box, Visit visit) const;
+  template <class Meets, class Visit>
+  bool visit_where(Meets meets, Visit visit) const;
   void refit(FaceId face, const Bounds& box);
 
   std::vector<Corners> corners_;

@@ -12,6 +12,7 @@
 #include "limn/hull/inside_guard.h"
 #include "limn/hull/part_surgery.h"
 #include "limn/hull/ring_surface.h"
+#include "limn/hull/shell_uvs.h"
 #include "limn/hull/strict_guard.h"
 #include "limn/mesh/normals.h"
 #include "limn/mesh/topology.h"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr std::size_t kSeldom = 1024;       // collapses between two reports of progress
 constexpr std::size_t kCleanFrom = 16;      // hidden parts are looked for from so many times the target on
+constexpr std::size_t kEagerFrom = 6;       // costs are kept up to date from so many times the target on
 constexpr double kCleanStep = 0.75;         // and again when that much of what is above the target is left
 constexpr double kReaches[] = {10.0, 1e3};  // edge lengths that a vertex may move: farther when nothing is left
 
@@ -64,6 +66,7 @@ class Shrinker {
 
   /// \return false when cancelled
   bool run() {
+    collapser_.set_eager_from(kEagerFrom * options_.faces);
     for (const double reach : kReaches) {
       collapser_.set_reach(reach);
       std::size_t before = 0;
@@ -190,7 +193,7 @@ void turn(std::vector<HullStep>& steps) {
   }
 }
 
-Result<Hull> shrink(Shell shell, const HullOptions& options, std::vector<VertexId>* heirs) {
+Result<Hull> shrink(Shell shell, const HullOptions& options, std::vector<VertexId>* heirs, std::vector<Vec2>* uvs) {
   const bool inner = options.side == HullSide::kInner;
   Hull hull;
   RingSurface surface(shell, inner);
@@ -206,6 +209,7 @@ Result<Hull> shrink(Shell shell, const HullOptions& options, std::vector<VertexI
   report.volume = volume_of(hull.mesh.positions, hull.mesh.faces);
   report.volume_ratio = report.volume_before != 0.0 ? report.volume / report.volume_before : 0.0;
   if (heirs != nullptr) *heirs = heirs_of(shell.positions.size(), shrinker.steps(), surface);
+  if (uvs != nullptr && !uvs->empty()) carry_uvs(shrinker.steps(), shell.positions, *uvs);
   if (options.keep_steps) {
     hull.steps = std::move(shrinker.steps());
     if (inner) turn(hull.steps);
@@ -224,16 +228,26 @@ Result<void> check(const HullOptions& options) {
 
 Result<Hull> build_hull(Shell shell, const HullOptions& options) {
   if (Result<void> checked = check(options); !checked) return tl::unexpected(checked.error());
-  return shrink(std::move(shell), options, nullptr);
+  return shrink(std::move(shell), options, nullptr, nullptr);
 }
 
 Result<Hull> build_hull(const Mesh& mesh, const HullOptions& options) {
   if (Result<void> checked = check(options); !checked) return tl::unexpected(checked.error());
   Result<Shell> shell = make_shell(mesh);
   if (!shell) return tl::unexpected(shell.error());
+  const std::vector<VertexId> weld = weld_positions(mesh.positions);
+  std::vector<Vec2> uvs;
+  if (!mesh.uvs.empty()) {
+    uvs = shell_uvs(mesh, *shell);
+    if (uvs.empty()) shell->notes.emplace_back("dropped texture coordinates: they have seams");
+  }
   std::vector<VertexId> heirs;
-  Result<Hull> hull = shrink(std::move(*shell), options, &heirs);
+  Result<Hull> hull = shrink(std::move(*shell), options, &heirs, &uvs);
   if (!hull) return hull;
+  if (!uvs.empty()) {
+    for (const VertexId v : hull->shell_vertex)
+      hull->mesh.uvs.values.push_back(uvs[v]);
+  }
   std::vector<VertexId> place(heirs.size(), kInvalidId);
   for (VertexId v = 0; v < hull->shell_vertex.size(); ++v)
     place[hull->shell_vertex[v]] = v;
@@ -244,7 +258,6 @@ Result<Hull> build_hull(const Mesh& mesh, const HullOptions& options) {
     hull->vertex_of_original[source] = place[heirs[v]];
   }
   // Positions that were welded go where their first did.
-  const std::vector<VertexId> weld = weld_positions(mesh.positions);
   for (VertexId v = 0; v < weld.size(); ++v)
     hull->vertex_of_original[v] = hull->vertex_of_original[weld[v]];
   return hull;

@@ -16,6 +16,7 @@ namespace limn {
 struct RingLink {
   VertexId vertex;
   FaceId face;
+  float cost = -1.0f;  ///< for whoever collapses edges: what was last found for this one; below 0 where nothing was
 };
 
 /// A closed surface of vertices that each know their neighbours in order, counter-clockwise seen from outside: what
@@ -46,6 +47,11 @@ class RingSurface {
   HullStep collapse_step(VertexId kept, VertexId removed, const Vec3& after) const;
   /// The step that would turn the edge. \pre they are neighbours
   HullStep flip_step(VertexId a, VertexId b) const;
+
+  void set_cost(VertexId a, VertexId b, float cost) {
+    link(a, b).cost = cost;
+    link(b, a).cost = cost;
+  }
 
   /// Whether the surface stays a closed manifold without double edges when the edge collapses.
   bool can_collapse(VertexId kept, VertexId removed) const;

@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <optional>
 
+#include "limn/hull/shell_uvs.h"
 #include "limn/hull/step_replay.h"
 #include "limn/mesh/normals.h"
 
@@ -116,11 +116,8 @@ Mesh HullSequence::mesh_at(int level, std::vector<VertexId>* vertex_ids, std::ve
   Mesh mesh;
   std::vector<Vec2> uvs = uvs_;
   if (!uvs.empty()) {
-    for (const HullStep& step : (level < 0 ? inner_ : outer_).steps) {
-      if (step.kind != HullStep::Kind::kCut) continue;
-      for (const VertexId v : {step.kept, step.removed, step.left})
-        uvs.push_back(uvs[v]);
-    }
+    const std::span<const HullStep> steps = level < 0 ? inner_.steps : outer_.steps;
+    carry_uvs(steps.first(static_cast<std::size_t>(std::abs(level))), shell_.positions, uvs);
   }
   std::vector<VertexId> ids;
   for (VertexId v = 0; v < number.size(); ++v) {
@@ -154,30 +151,6 @@ std::vector<VertexId> HullSequence::heirs_at(int level) const {
   }
   heirs.resize(shell_.positions.size());
   return heirs;
-}
-
-std::vector<Vec2> shell_uvs(const Mesh& mesh, const Shell& shell) {
-  if (mesh.uvs.empty()) return {};
-  std::vector<std::optional<Vec2>> found(shell.positions.size());
-  for (FaceId face = 0; face < shell.faces.size(); ++face) {
-    const FaceId source = shell.source_face[face];
-    if (source == kInvalidId) continue;
-    for (const VertexId v : shell.faces[face]) {
-      for (int c = 0; c < 3; ++c) {
-        // Corners are told by their places: a face may have been split.
-        if (mesh.positions[mesh.faces[source][static_cast<std::size_t>(c)]] != shell.positions[v]) continue;
-        const Vec2 uv = mesh.corner(mesh.uvs, source, c);
-        if (found[v] && *found[v] != uv) return {};
-        found[v] = uv;
-      }
-    }
-  }
-  std::vector<Vec2> uvs;
-  for (const std::optional<Vec2>& uv : found) {
-    if (!uv) return {};
-    uvs.push_back(*uv);
-  }
-  return uvs;
 }
 
 HullCursor::HullCursor(const HullSequence& sequence)

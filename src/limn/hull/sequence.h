@@ -47,7 +47,8 @@ class HullSequence {
   int inner_level(std::size_t faces) const;
 
   /// A member as a mesh, its vertices and faces in ascending order of their ids. Normals are smooth, of its own faces;
-  /// uvs, where the sequence has any, those of the vertices that stayed.
+  /// uvs, where the sequence has any, as carry_uvs makes them
+  /// (shell_uvs.h).
   /// \param vertex_ids, face_ids  get the ids of its vertices and faces, the shell's where they are below its counts,
   /// else of what cuts made on the way; may be nullptr Same bits whichever way the level was come to. Cost: linear in
   /// the shell and the steps from it. \pre innermost() <= level <= outermost()
@@ -86,10 +87,6 @@ class HullSequence {
   Way outer_, inner_;
   std::vector<Vec2> uvs_;
 };
-
-/// Texture coordinates for the vertices of a mesh's shell: where all faces of each agree, as they do without seams;
-/// none where two disagree, or where closing added a vertex.
-std::vector<Vec2> shell_uvs(const Mesh& mesh, const Shell& shell);
 
 /// A place in a sequence that moves a step at a time, both ways, in time proportional to the faces a step touches.
 /// The sequence must outlive it.
