@@ -72,7 +72,7 @@ TEST(Bake, IdenticalMeshesGiveIdenticalAttributes) {
   std::size_t compared = 0;
   for (int y = 0; y < 512; ++y) {
     for (int x = 0; x < 512; ++x) {
-      const std::size_t i = static_cast<std::size_t>(512 * y + x);
+      const std::size_t i = 512 * std::size_t(y) + std::size_t(x);
       Vec3 position, normal;
       if (maps->owner[i] == kInvalidId || !low_point(maps->mesh, maps->owner[i], x, y, 512, position, normal)) continue;
       ++compared;
