@@ -5,7 +5,9 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "limn/bake/discontinuity.h"
 #include "limn/base/parallel.h"
+#include "limn/image/srgb.h"
 #include "limn/mesh/normals.h"
 
 #include "bake/shapes.h"
@@ -70,7 +72,7 @@ TEST(Bake, IdenticalMeshesGiveIdenticalAttributes) {
   std::size_t compared = 0;
   for (int y = 0; y < 512; ++y) {
     for (int x = 0; x < 512; ++x) {
-      const std::size_t i = static_cast<std::size_t>(512 * y + x);
+      const std::size_t i = 512 * std::size_t(y) + std::size_t(x);
       Vec3 position, normal;
       if (maps->owner[i] == kInvalidId || !low_point(maps->mesh, maps->owner[i], x, y, 512, position, normal)) continue;
       ++compared;
@@ -239,6 +241,93 @@ TEST(Bake, OcclusionKnowsTheOpenAndTheInside) {
     if (closed->owner[i] == kInvalidId) continue;
     ASSERT_LT(closed->occlusion.values[i], 0.05f);
   }
+}
+
+/// Two plates, one far below the other and beyond its edge: rays past the upper one meet the lower.
+TEST(Bake, ALongRayGivesWayToAPointThatIsFarNearer) {
+  Mesh high;
+  high.positions = {Vec3(-1, -1, 0),  Vec3(0, -1, 0),  Vec3(0, 1, 0),  Vec3(-1, 1, 0),
+                    Vec3(-1, -1, -2), Vec3(1, -1, -2), Vec3(1, 1, -2), Vec3(-1, 1, -2)};
+  high.faces = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  BakeOptions options;
+  options.size_px = 64;
+  options.maps.displacement = true;
+  const Mesh low = sheet(0.1f);
+  options.most_stretch = 0;
+  const auto published = baked(high, low, options);
+  options.most_stretch = 2;
+  const auto ruled = baked(high, low, options);
+  ASSERT_TRUE(published && ruled);
+  EXPECT_EQ(published->report.overruled, 0u);
+  EXPECT_NEAR(published->report.worst_distance, 2.1, 1e-4);
+  EXPECT_GT(ruled->report.overruled, ruled->report.samples / 4);
+  EXPECT_EQ(ruled->report.misses, 0u);
+  EXPECT_LT(ruled->report.worst_distance, 0.6);
+  options.most_stretch = 0.5;
+  EXPECT_FALSE(bake(high, low, options));
+}
+
+TEST(Bake, DiscontinuitiesAreCountedWhereTheMapIsTorn) {
+  // A step of height 1 in a sheet that is open between: rays fall on one part or the other.
+  Mesh high = sheet(0.0f);
+  for (Vec3& p : high.positions)
+    p.x = p.x < 0 ? -0.5f : 0.0f;
+  const Mesh other = sheet(-1.0f);
+  for (const Vec3& p : other.positions)
+    high.positions.push_back(p);
+  high.faces.push_back({4, 5, 6});
+  high.faces.push_back({4, 6, 7});
+  BakeOptions options;
+  options.size_px = 64;
+  options.most_stretch = 0;
+  options.maps.positions = true;
+  const auto torn = baked(high, sheet(0.2f), options);
+  const auto whole = baked(other, sheet(0.2f), options);
+  ASSERT_TRUE(torn && whole);
+  const auto breaks = find_discontinuities(*torn, 8.0), none = find_discontinuities(*whole, 8.0);
+  ASSERT_TRUE(breaks && none);
+  EXPECT_EQ(none->breaks, 0u);
+  EXPECT_GT(none->pairs, 1000u);
+  EXPECT_GT(breaks->breaks, 40u);
+  EXPECT_LT(breaks->breaks, 200u);
+  options.maps.positions = false;
+  EXPECT_FALSE(find_discontinuities(*baked(other, sheet(0.2f), options), 8.0));
+}
+
+TEST(Bake, PicturesOfTheHighMeshComeThroughInLinearLight) {
+  // Left half dark, right half bright, u along x.
+  Image picture(64, 64);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const std::uint8_t value = x < 32 ? 55 : 188;
+      const std::uint8_t bytes[4] = {value, value, value, 255};
+      std::copy_n(bytes, 4, picture.pixel(x, y));
+    }
+  }
+  const auto png = encode_png(picture);
+  ASSERT_TRUE(png);
+  Mesh high = sheet(0.0f);
+  high.uvs.values = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+  high.materials.resize(1);
+  high.materials[0].base_color = Vec4(1.0f, 0.5f, 1.0f, 1.0f);
+  const auto bytes = std::as_bytes(std::span(png->data(), png->size()));
+  high.materials[0].base_color_image.assign(bytes.begin(), bytes.end());
+  BakeOptions options;
+  options.size_px = 64;
+  options.maps.colors = options.maps.positions = true;
+  const auto maps = baked(high, sheet(0.1f), options);
+  ASSERT_TRUE(maps);
+  for (std::size_t i = 0; i < maps->owner.size(); ++i) {
+    const float x = maps->positions.values[3 * i];
+    if (maps->owner[i] == kInvalidId || std::abs(x) < 0.05f || std::abs(x) > 0.45f) continue;
+    const float expected = linear_of_srgb(x < 0 ? 55 : 188);
+    ASSERT_NEAR(maps->colors.values[4 * i], expected, 2e-3f) << x;
+    ASSERT_NEAR(maps->colors.values[4 * i + 1], 0.5f * expected, 2e-3f) << x;
+  }
+  const auto model = mesh_with_maps(*maps);
+  ASSERT_TRUE(model);
+  EXPECT_FALSE(model->materials.at(0).base_color_image.empty());
+  EXPECT_TRUE(model->materials[0].normal_image.empty());
 }
 
 void expect_same_maps(const BakedMaps& a, const BakedMaps& b) {

@@ -143,7 +143,7 @@ void expect_maps_agree(const Mesh& high, const Mesh& low) {
   std::size_t compared = 0;
   for (int y = 0; y < 256; ++y) {
     for (int x = 0; x < 256; ++x) {
-      const std::size_t i = static_cast<std::size_t>(256 * y + x);
+      const std::size_t i = 256 * std::size_t(y) + std::size_t(x);
       const FaceId face = maps->owner[i];
       if (face == kInvalidId) continue;
       const Vec2 at = place_in(mesh, face, x, y, 256);

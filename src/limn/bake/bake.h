@@ -101,8 +101,8 @@ struct BakedMaps {
 /// closed and does not meet itself, one of the two always counts at most: the first from outside, the second from
 /// inside. Where neither does, the closest point of the high mesh is taken, and the texel is a miss.
 ///
-/// Normals: the low mesh's own, else smooth ones; the high mesh's own, else creased at 60°. Cost: about 0.15 µs a
-/// sample and core with Embree, three times that without. Same bits for any number of threads.
+/// Normals: the low mesh's own, else smooth ones; the high mesh's own, else creased at 60°. Cost: 0.1 to 0.25 µs a
+/// sample and core with Embree, several times that without; docs/baking.md. Same bits for any number of threads.
 /// Errors: kUnsuitable (a mesh without faces, coordinates that are not finite, kOwnUvs without texture coordinates),
 /// kInvalidArgument (options out of range; more faces than the size has room for, naming the size needed), kCancelled.
 Result<BakedMaps> bake(const Mesh& high, const Mesh& low, const BakeOptions& options = {});

@@ -25,8 +25,8 @@ Image halved(const Image& image) {
                         0.25f;
       std::uint8_t* const pixel = half.pixel(x, y);
       for (int c = 0; c < 3; ++c)
-        pixel[c] = static_cast<std::uint8_t>(255.0f * srgb_of_linear(mean[c]) + 0.5f);
-      pixel[3] = static_cast<std::uint8_t>(255.0f * mean.a + 0.5f);
+        pixel[c] = static_cast<std::uint8_t>(std::lround(255.0f * srgb_of_linear(mean[c])));
+      pixel[3] = static_cast<std::uint8_t>(std::lround(255.0f * mean.a));
     }
   }
   return half;

@@ -127,8 +127,9 @@ class Filler {
 
   Barycentric place(const Texel& texel, std::size_t sample) const {
     const float step = 1.0f / static_cast<float>(side_);
-    const float dx = (static_cast<float>(sample % side_) + 0.5f) * step;
-    const float dy = (static_cast<float>(sample / side_) + 0.5f) * step;
+    const std::size_t column = sample % side_, row = sample / side_;
+    const float dx = (static_cast<float>(column) + 0.5f) * step;
+    const float dy = (static_cast<float>(row) + 0.5f) * step;
     return scene_.texels.at(texel.face, static_cast<float>(texel.x) + dx, static_cast<float>(texel.y) + dy);
   }
 

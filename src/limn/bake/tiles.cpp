@@ -79,7 +79,8 @@ std::array<glm::dvec2, 3> tile_corners(std::size_t face, const TileLayout& layou
   const std::size_t square = face / 2;
   const auto columns = static_cast<std::size_t>(layout.columns);
   const double left = static_cast<double>(square % columns) * layout.tile_px;
-  const double bottom = (static_cast<double>(square / columns) + 1.0) * layout.tile_px;
+  const std::size_t row = square / columns;
+  const double bottom = (static_cast<double>(row) + 1.0) * layout.tile_px;
   const double near = inset_px(layout.clean_mip_level), far = near + layout.leg_px;
   std::array<glm::dvec2, 3> local{glm::dvec2(near, near), glm::dvec2(far, near), glm::dvec2(near, far)};
   for (glm::dvec2& corner : local) {

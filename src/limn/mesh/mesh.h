@@ -52,7 +52,7 @@ struct Mesh {
   /// What a normal map was baked for: xyz of unit length along growing u, w the side of the bitangent (+1 or −1), as
   /// glTF's TANGENT. Written to glTF, read from nothing; dropped by whatever makes new surfaces.
   CornerAttribute<Vec4> tangents;
-  std::vector<float> tags;        ///< one value a position, for Criterion::kTags (refine/levels.h); may be empty
+  std::vector<float> tags;  ///< one value a position, for Criterion::kTags (refine/levels.h); may be empty
   std::vector<std::uint32_t> face_materials;  ///< one a face, index into materials; empty: all of material 0, or none
   std::vector<Material> materials;
 

@@ -150,7 +150,8 @@ VertexMesh one_value_per_vertex(const Mesh& mesh) {
       !one_a_vertex(mesh.tangents)) {
     return VertexSplitter(mesh).split();
   }
-  VertexMesh result{mesh.positions, mesh.normals.values, mesh.uvs.values, mesh.colors.values, mesh.tangents.values, mesh.faces, {}};
+  VertexMesh result{
+      mesh.positions, mesh.normals.values, mesh.uvs.values, mesh.colors.values, mesh.tangents.values, mesh.faces, {}};
   result.source.resize(mesh.positions.size());
   for (std::size_t i = 0; i < result.source.size(); ++i)
     result.source[i] = static_cast<VertexId>(i);
