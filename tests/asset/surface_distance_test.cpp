@@ -74,7 +74,7 @@ TEST(SurfaceDistance, OfASurfaceFromItselfEnds) {
   const Mesh mesh = bumpy_sphere(1280);
   const SurfaceDistance distance = distance_from(mesh, tree_of(mesh));
   EXPECT_LE(distance.reached, 1e-6);
-  EXPECT_LE(distance.bound, 0.02);  // pieces are that small when it ends
+  EXPECT_LE(distance.bound, 0.03);  // pieces are that small when it ends
 }
 
 TEST(SurfaceDistance, DoesNotDependOnThreads) {
