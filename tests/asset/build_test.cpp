@@ -121,7 +121,10 @@ TEST(BuildClipAsset, ComesBackFromAFileAsItWasBuilt) {
   EXPECT_TRUE(same_bits(before.positions, after.positions));
   EXPECT_TRUE(same_bits(before.uvs.values, after.uvs.values));
   EXPECT_TRUE(same_bits(before.normals.values, after.normals.values));
-  EXPECT_EQ(file_of(*read), file_of(built->asset));
+  ClipAsset without = built->asset;
+  EXPECT_FALSE(without.hull.tangents.empty());  // for other readers; limn's own does without
+  without.hull.tangents = {};
+  EXPECT_EQ(file_of(*read), file_of(without));
 }
 
 TEST(BuildClipAsset, GivesTheSameBytesForAnyNumberOfThreads) {

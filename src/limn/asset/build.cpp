@@ -64,6 +64,7 @@ Mesh as_read_back(const Mesh& mesh) {
   settled.faces = std::move(vertices.faces);
   settled.normals.values = std::move(vertices.normals);
   settled.uvs.values = std::move(vertices.uvs);
+  settled.tangents.values = std::move(vertices.tangents);
   for (Vec2& uv : settled.uvs.values)
     uv.y = 1.0f - (1.0f - uv.y);
   settled.materials = mesh.materials;
