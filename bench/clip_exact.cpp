@@ -15,8 +15,8 @@ Camera camera_of(const Bounds& bounds, int view, Random& random) {
   CameraFit fit;
   fit.orthographic = view % 5 == 4;
   if (view % 5 == 1) fit.fov_rad = 1.4f;
-  if (view % 5 == 2) fit.fill = 0.2f;   // small
-  if (view % 5 == 3) fit.fill = 2.5f;   // larger than the picture
+  if (view % 5 == 2) fit.fill = 0.2f;  // small
+  if (view % 5 == 3) fit.fill = 2.5f;  // larger than the picture
   if (view % 5 == 3) fit.fov_rad = 0.3f;
   Camera camera = fit_camera(bounds, random.direction(), fit);
   camera.near_distance *= 0.5f;
@@ -75,10 +75,9 @@ void compare(const std::vector<std::uint8_t>& wanted, const std::vector<std::uin
   ++count.pictures_differing;
   constexpr std::size_t kMostLines = 12;
   if (count.lines.size() < kMostLines) {
-    count.lines.push_back(fmt::format("{}: {} pixels, the first at {}, {} {}", view, differing,
-                                      first % static_cast<std::size_t>(size_px),
-                                      first / static_cast<std::size_t>(size_px),
-                                      wanted[first] > 0 ? "missing" : "too many"));
+    count.lines.push_back(
+        fmt::format("{}: {} pixels, the first at {}, {} {}", view, differing, first % static_cast<std::size_t>(size_px),
+                    first / static_cast<std::size_t>(size_px), wanted[first] > 0 ? "missing" : "too many"));
   }
 }
 
@@ -86,12 +85,10 @@ void compare(const std::vector<std::uint8_t>& wanted, const std::vector<std::uin
 
 Result<PixelCount> count_pixels(gl::Context& context, const SubjectName& about, const std::filesystem::path& models,
                                 const FrameSettings& settings, bool exact) {
-  auto original = original_of(about, models);
-  if (!original) return tl::unexpected(original.error());
-  ClipAsset asset;
-  asset.levels.push_back({*original, 0.0f});
-  asset.bounds = face_bounds(*original);
-  asset.hull = crude_hull(*original, 0);
+  const auto subject = make_subject(about, models);
+  if (!subject) return tl::unexpected(subject.error());
+  const ClipAsset& asset = subject->asset;
+  const Mesh* const original = &asset.levels.front().mesh;  // the welded original, closed where it was open
   auto model = ClipModel::create(context, asset);
   auto frame = ClipFrame::create(context);
   const auto program = context.program({"face.vert.glsl", "", "face.frag.glsl", {}});

@@ -62,7 +62,7 @@ Result<PlainMesh> PlainMesh::create(gl::Context& context, const Mesh& mesh) {
   auto materials = MaterialTable::create(mesh);
   if (!materials) return tl::unexpected(materials.error());
   plain.materials_ = std::make_unique<MaterialTable>(std::move(*materials));
-  const auto program = context.program({"face.vert.glsl", "", "face.frag.glsl", {}});
+  const auto program = context.program({"face.vert.glsl", "", "face.frag.glsl", {"SINGLE_MATERIAL 1"}});
   if (!program) return tl::unexpected(program.error());
   plain.program_ = *program;
   return plain;
@@ -75,6 +75,7 @@ void PlainMesh::draw(const RenderTargets& targets, const CameraBuffer& camera) c
   program_->set("flat_normals", 0);
   program_->set("draw_faces", 1);
   materials_->bind();
+  materials_->set_single(*program_);
   glVertexAttrib4f(3, 1.0f, 1.0f, 1.0f, 1.0f);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
@@ -140,8 +141,8 @@ Result<ClipRow> measure_row(gl::Context& context, const Subject& subject, const 
   row.name = subject.about.name;
   row.faces = subject.original.face_count();
   row.hull_faces = subject.asset.hull.face_count();
-  Spread* const spreads[] = {&row.original,      &row.simplified,   &row.clipped, &row.lines,
-                             &row.msaa_original, &row.msaa_clipped};
+  Spread* const spreads[] = {&row.original, &row.simplified,    &row.clipped,
+                             &row.lines,    &row.msaa_original, &row.msaa_clipped};
   for (std::size_t i = 0; i < 6; ++i)
     *spreads[i] = spread_of(times[i]);
   double* const medians[] = {&row.extraction, &row.loops, &row.stencil, &row.hull};
@@ -152,6 +153,55 @@ Result<ClipRow> measure_row(gl::Context& context, const Subject& subject, const 
   row.edge_on_faces = spread_of(counts[2]).median;
   row.paper = subject.about.paper;
   return row;
+}
+
+namespace {
+
+/// Milliseconds of one frame for each view after the first two, which warm up.
+template <class DrawFrame>
+Result<double> median_frame(const std::vector<Camera>& cameras, const DrawFrame& draw_frame) {
+  std::vector<double> times;
+  for (std::size_t view = 0; view < cameras.size(); ++view) {
+    gl::finish();
+    const Clock::time_point begun = Clock::now();
+    if (const Result<void> drawn = draw_frame(cameras[view]); !drawn) return tl::unexpected(drawn.error());
+    gl::finish();
+    if (view > 1) times.push_back(ms_since(begun));
+  }
+  return spread_of(times).median;
+}
+
+}  // namespace
+
+Result<double> time_plain(gl::Context& context, const Mesh& mesh, const Bounds& bounds, const FrameSettings& settings) {
+  const auto plain = PlainMesh::create(context, mesh);
+  if (!plain) return tl::unexpected(plain.error());
+  const auto targets = RenderTargets::create(settings.size_px, settings.size_px, 1);
+  if (!targets) return tl::unexpected(targets.error());
+  const CameraBuffer camera_buffer;
+  return median_frame(cameras_of(bounds, settings), [&](const Camera& camera) -> Result<void> {
+    camera_buffer.update(make_camera_block(camera, settings.size_px, settings.size_px));
+    plain->draw(*targets, camera_buffer);
+    return {};
+  });
+}
+
+Result<double> time_clipped(gl::Context& context, const ClipAsset& asset, const FrameSettings& settings) {
+  auto model = ClipModel::create(context, asset);
+  if (!model) return tl::unexpected(model.error());
+  auto frame = ClipFrame::create(context);
+  if (!frame) return tl::unexpected(frame.error());
+  const auto targets = RenderTargets::create(settings.size_px, settings.size_px, 1, RenderTargets::Stencil::kEightBits);
+  if (!targets) return tl::unexpected(targets.error());
+  ClipDrawOptions options;
+  options.level_tolerance_px = 0;
+  return median_frame(cameras_of(asset.bounds, settings), [&](const Camera& camera) -> Result<void> {
+    frame->begin(*targets, camera, options);
+    auto drawn = frame->draw(*model);
+    frame->end();
+    if (!drawn) return tl::unexpected(drawn.error());
+    return {};
+  });
 }
 
 }  // namespace limn::bench

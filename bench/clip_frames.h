@@ -47,6 +47,10 @@ struct ClipRow {
   double silhouette_edges = 0, stencil_triangles = 0, edge_on_faces = 0;
   PublishedRow paper;
 };
+/// The median of frames of a mesh as a careful program draws it, or of an asset with its one silhouette.
+Result<double> time_plain(gl::Context& context, const Mesh& mesh, const Bounds& bounds, const FrameSettings& settings);
+Result<double> time_clipped(gl::Context& context, const ClipAsset& asset, const FrameSettings& settings);
+
 Result<ClipRow> measure_row(gl::Context& context, const Subject& subject, const FrameSettings& settings);
 
 }  // namespace limn::bench

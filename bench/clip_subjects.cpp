@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <meshoptimizer.h>
 
+#include "limn/asset/build.h"
 #include "limn/mesh/import.h"
 #include "limn/mesh/normals.h"
 #include "limn/mesh/shapes.h"
@@ -42,8 +43,7 @@ void add_smooth_normals(Mesh& mesh) {
   mesh.normals.values.assign(mesh.positions.size(), Vec3(0, 0, 1));
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     for (int c = 0; c < 3; ++c)
-      mesh.normals.values[mesh.faces[f][static_cast<std::size_t>(c)]] =
-          mesh.corner(corners, static_cast<FaceId>(f), c);
+      mesh.normals.values[mesh.faces[f][static_cast<std::size_t>(c)]] = mesh.corner(corners, static_cast<FaceId>(f), c);
   }
 }
 
@@ -63,18 +63,6 @@ void order_for_caches(Mesh& mesh) {
   mesh.normals.values.resize(used);
 }
 
-Mesh icosphere_around(const Mesh& original) {
-  const Bounds bounds = face_bounds(original);
-  const Vec3 middle = bounds.center();
-  float radius = 0;
-  for (const Vec3& p : original.positions)
-    radius = std::max(radius, glm::length(p - middle));
-  Mesh hull = welded(*make_shape(Shape::kIcosphere, {.faces = 320}));
-  for (Vec3& p : hull.positions)
-    p = middle + 1.08f * radius * p;
-  return hull;
-}
-
 }  // namespace
 
 std::vector<SubjectName> table_subjects() {
@@ -85,7 +73,8 @@ std::vector<SubjectName> table_subjects() {
           {"holes3", 188'416, 500, {90.3, 4.0, 1.0, 4.4, 5.5, 16.4, 1.5}},
           {"refined_elephant.off", 0, 500, {}},
           {"homer.off", 0, 500, {}},
-          {"fandisk_large.off", 0, 500, {}}};
+          {"fandisk_large.off", 0, 500, {}},
+          {"ChineseDragon-10kv.off", 0, 1'000, {}}};
 }
 
 Result<Mesh> original_of(const SubjectName& about, const std::filesystem::path& models) {
@@ -109,25 +98,19 @@ Mesh simplified_to(const Mesh& original, std::size_t faces) {
   return mesh;
 }
 
-Mesh crude_hull(const Mesh& original, std::size_t faces) {
-  if (faces == 0) return icosphere_around(original);
-  Mesh hull = welded(reduce(original, faces, kSmooth));
-  add_smooth_normals(hull);
-  const auto out = static_cast<float>(0.01 * face_bounds(original).diagonal());
-  for (std::size_t v = 0; v < hull.positions.size(); ++v)
-    hull.positions[v] += out * hull.normals.values[v];
-  return hull;
-}
-
-Result<Subject> make_subject(const SubjectName& about, const std::filesystem::path& models) {
+Result<Subject> make_subject(const SubjectName& about, const std::filesystem::path& models, std::size_t levels) {
   auto original = original_of(about, models);
   if (!original) return tl::unexpected(original.error());
   Subject subject;
   subject.about = about;
   subject.original = std::move(*original);
-  subject.asset.levels.push_back({subject.original, 0.0f});
-  subject.asset.bounds = face_bounds(subject.original);
-  subject.asset.hull = crude_hull(subject.original, about.hull_faces);
+  ClipOptions options;
+  options.faces = about.hull_faces;
+  options.levels = levels;
+  options.maps = {.normals = true, .colors = false, .displacement = false};
+  auto built = build_clip_asset(subject.original, options);
+  if (!built) return tl::unexpected(built.error());
+  subject.asset = std::move(built->asset);
   subject.simplified = simplified_to(subject.original, about.hull_faces);
   add_smooth_normals(subject.original);
   order_for_caches(subject.original);

@@ -17,7 +17,7 @@ struct PublishedRow {
 /// A model to clip: which, how small a hull, and what the paper says of it.
 struct SubjectName {
   std::string name;
-  std::size_t faces = 0;       ///< of the original: 0 for the file's own
+  std::size_t faces = 0;  ///< of the original: 0 for the file's own
   std::size_t hull_faces = 0;
   PublishedRow paper{};
 };
@@ -25,7 +25,7 @@ struct SubjectName {
 /// A model with what the contestants draw.
 struct Subject {
   SubjectName about;
-  Mesh original;  ///< welded, a normal a vertex, faces and vertices in the order that caches like best
+  Mesh original;    ///< welded, a normal a vertex, faces and vertices in the order that caches like best
   Mesh simplified;  ///< as many faces as the hull, likewise
   ClipAsset asset;
 };
@@ -36,14 +36,11 @@ std::vector<SubjectName> table_subjects();
 /// Reads or makes a model. Errors: those of reading it; kUnsuitable where it is not closed.
 Result<Mesh> original_of(const SubjectName& about, const std::filesystem::path& models);
 
-/// The whole subject. Errors: as original_of(), and those of making the hull.
-Result<Subject> make_subject(const SubjectName& about, const std::filesystem::path& models);
+/// The whole subject, its asset as `limn clip` makes it, with a picture of normals and no other map.
+/// \param levels  silhouettes at most  Errors: as original_of(), and those of build_clip_asset().
+Result<Subject> make_subject(const SubjectName& about, const std::filesystem::path& models, std::size_t levels = 1);
 
 /// A mesh of `faces` faces by plain simplification, ready to draw: a normal a vertex, ordered for caches.
 Mesh simplified_to(const Mesh& original, std::size_t faces);
-
-/// A closed mesh around `original`, made quickly: an icosphere where `faces` is 0, else a simplified mesh moved outwards.
-/// What the stencil leaves of it does not depend on its shape as long as it encloses the original.
-Mesh crude_hull(const Mesh& original, std::size_t faces);
 
 }  // namespace limn::bench

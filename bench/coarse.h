@@ -5,8 +5,7 @@
 
 namespace limn::bench {
 
-/// A coarse mesh around a fine one, with smooth normals: meshoptimizer's reduction, its vertices moved outwards by a
-/// hundredth of the model's diagonal.
+/// The mesh's outer hull of so many faces, without texture coordinates, or of more where fewer are not reached.
 Result<Mesh> coarse_mesh(const Mesh& mesh, std::size_t faces);
 
 }  // namespace limn::bench

@@ -59,7 +59,7 @@ float original_depth() {
 #endif
 
 void main() {
-  Material m = materials[material];
+  Material m = material_of(material);
   vec3 to_eye = orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-at);
   vec3 n = hull_normal(m, to_eye);
   color = vec4(shade(n, to_eye, hull_color(m), m.metallic, m.roughness, world_up), 1.0);

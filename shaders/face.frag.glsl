@@ -49,7 +49,7 @@ float wire_coverage() {
 #endif
 
 void main() {
-  Material m = materials[material];
+  Material m = material_of(material);
   vec3 to_eye = orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-at);
   vec3 n = face_normal(to_eye);
   float front = gl_FrontFacing ? 1.0 : -1.0;

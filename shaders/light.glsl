@@ -9,6 +9,11 @@ const vec3 kRimColor = vec3(0.60, 0.75, 1.00) * 0.5;
 const vec3 kSky = vec3(0.50, 0.63, 0.86);
 const vec3 kGround = vec3(0.20, 0.15, 0.12);
 
+float fifth_power(float x) {
+  float square = x * x;
+  return square * square * x;
+}
+
 float highlight(float n_h, float n_v, float n_l, float roughness) {
   float a = roughness * roughness;
   float a2 = a * a;
@@ -24,7 +29,7 @@ vec3 lit_by(vec3 l, vec3 radiance, vec3 n, vec3 v, vec3 diffuse, vec3 specular, 
   if (n_l <= 0.0) return vec3(0.0);
   vec3 h = normalize(l + v);
   float v_h = max(dot(v, h), 0.0);
-  vec3 fresnel = specular + (1.0 - specular) * pow(1.0 - v_h, 5.0);
+  vec3 fresnel = specular + (1.0 - specular) * fifth_power(1.0 - v_h);
   float shine = highlight(max(dot(n, h), 0.0), max(dot(n, v), 1e-3), n_l, roughness);
   return radiance * n_l * ((1.0 - fresnel) * diffuse / kPi + fresnel * shine);
 }
@@ -48,7 +53,7 @@ vec3 shade(vec3 n, vec3 v, vec3 base, float metallic, float roughness, vec3 up) 
   vec3 c = lit_by(normalize(kKeyDirection), kKeyColor, n, v, diffuse, specular, rough);
   c += lit_by(normalize(kRimDirection), kRimColor, n, v, diffuse, specular, rough);
   float n_v = max(dot(n, v), 0.0);
-  vec3 mirror = specular + (max(vec3(1.0 - rough), specular) - specular) * pow(1.0 - n_v, 5.0);
+  vec3 mirror = specular + (max(vec3(1.0 - rough), specular) - specular) * fifth_power(1.0 - n_v);
   // A surface that turns away is darkened a little, so that outlines read against a white page.
   float turned = mix(0.45, 1.0, smoothstep(0.0, 0.6, n_v));
   c += diffuse * sky(n, up) * 0.42;

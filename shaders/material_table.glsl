@@ -13,6 +13,15 @@ layout(std430, binding = 7) readonly buffer Materials { Material materials[]; };
 layout(binding = 14) uniform sampler2DArray base_color_pictures;
 layout(binding = 15) uniform sampler2DArray normal_pictures;
 
+/// The material of this number. With SINGLE_MATERIAL all that is drawn has one, which comes from a uniform
+/// (MaterialTable::set_single): some devices read the table a number at a time.
+#ifdef SINGLE_MATERIAL
+uniform Material single_material;
+Material material_of(uint id) { return single_material; }
+#else
+Material material_of(uint id) { return materials[id]; }
+#endif
+
 // A picture is looked up only where there is one. All fragments of a quad belong to one triangle and so take the same way,
 // which is what derivatives need.
 

@@ -94,6 +94,7 @@ ordered_json report_json(const BakeFlags& flags, const BakedMaps& maps, const st
           {"samples", report.samples},
           {"misses", report.misses},
           {"miss_share", report.miss_share()},
+          {"overruled", report.overruled},
           {"worst_distance", report.worst_distance},
           {"worst_texel", {report.worst_x, report.worst_y}},
           {"worst_face", report.worst_face},
@@ -174,6 +175,8 @@ Run declare_bake(OptionTable& table) {
   table.integer("--mips", options.clean_mip_level, 0, 8, "mip levels that tiles stay apart in");
   table.integer("--gutter", options.gutter_px, 0, 1024, "texels around islands of own coordinates (default 8)");
   table.number("--max-distance", "D", options.max_distance, {.low = 0}, "longest ray in model units (default: none)");
+  table.number("--stretch", "R", options.most_stretch, {.low = 0},
+               "long rays give way to a point R times nearer (default 2; 0: none does)");
   table.integer("--ao-rays", options.occlusion_rays, 1, 65536, "a texel (default 64)");
   table.number("--ao-distance", "D", options.occlusion_distance, {.low = 0}, "what is farther does not occlude");
   table.count("--seed", options.seed, 0, UINT64_MAX, "of the occlusion rays (default 1)");

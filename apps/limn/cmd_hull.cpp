@@ -91,9 +91,8 @@ Result<void> write_sequence(Session& session, const HullFlags& flags, const Mesh
         &inner = flags.inner ? hull.steps : other->steps;
   outcome.outer_steps = outer.size();
   outcome.inner_steps = inner.size();
-  return HullSequence::make(hull.shell, outer, inner).and_then([&](const HullSequence& sequence) {
-    return save_hull_sequence(sequence, flags.sequence);
-  });
+  return HullSequence::make(hull.shell, outer, inner, shell_uvs(mesh, hull.shell))
+      .and_then([&](const HullSequence& sequence) { return save_hull_sequence(sequence, flags.sequence); });
 }
 
 Result<Outcome> make_hull(Session& session, const HullFlags& flags) {

@@ -10,6 +10,7 @@
 #include "limn/render/render.h"
 
 #include "camera_options.h"
+#include "clip_rendering.h"
 #include "drawn_lines.h"
 #include "interrupt.h"
 #include "level_options.h"
@@ -27,6 +28,7 @@ struct RenderFlags {
   std::uint64_t budget = 0;
   CameraOptions camera;
   LevelFlags levels;
+  ClipDrawFlags clip;
   Size size{1024, 1024};
   RenderOptions options;
   bool level_lines = false;
@@ -65,7 +67,9 @@ tl::unexpected<Error> not_for(RenderMethod method, const std::string& flag, cons
 Result<void> check_method(const RenderFlags& flags) {
   const RenderMethod method = chosen_method(flags);
   const bool patterns = method == RenderMethod::kPatterns;
-  const bool cpu = !on_device(method);
+  const bool cpu = method == RenderMethod::kCoarse || method == RenderMethod::kRefine;
+  if (method == RenderMethod::kClip && (flags.options.wireframe || flags.options.flat))
+    return not_for(method, flags.options.flat ? "--flat" : "--wireframe", "use --method coarse on limn hull's output");
   if (flags.lines() && !cpu)
     return not_for(method, flags.outline ? "--outline" : "--levels", "use --method refine or auto");
   if (flags.budget > 0 && !patterns) return not_for(method, "--budget", "use --method patterns, or leave it out");
@@ -179,8 +183,45 @@ Result<void> report(Session& session, const RenderFlags& flags, const LoadedMesh
   return session.print_json(data);
 }
 
+nlohmann::ordered_json details_of(const ClipPicture& picture) {
+  const ClipDrawn& drawn = picture.drawn.front();
+  constexpr const char* kPlaces[] = {"outside", "between", "inside"};
+  return {{"draw_ms", picture.draw_ms},
+          {"eye", kPlaces[static_cast<int>(drawn.place)]},
+          {"silhouette_level", drawn.level},
+          {"silhouette_edges", drawn.silhouette_edges},
+          {"stencil_triangles", drawn.stencil_triangles}};
+}
+
+/// Draws a clip asset instead of a mesh.
+Result<int> run_clip(Session& session, const RenderFlags& flags) {
+  const Result<ClipAsset> asset = load_clip_asset(flags.input.path);
+  if (!asset) return tl::unexpected(asset.error());
+  const Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
+  if (!context) return tl::unexpected(context.error());
+  const auto begun = std::chrono::steady_clock::now();
+  LoadedMesh original;
+  original.mesh = asset->levels.front().mesh;
+  const float aspect = static_cast<float>(flags.size.width) / static_cast<float>(flags.size.height);
+  const Result<Camera> camera = place_camera(flags.camera, original.mesh, aspect);
+  if (!camera) return tl::unexpected(camera.error());
+  Result<ClipPicture> picture = draw_clip_asset(**context, *asset, *camera, render_options(flags), flags.clip);
+  if (!picture) return tl::unexpected(about(picture.error(), flags.input.path));
+  Drawn drawn{std::move(picture->image), RenderMethod::kClip, asset->hull.face_count()};
+  drawn.device = details_of(*picture);
+  drawn.time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+  return session.check_stop()
+      .and_then([&] {
+        const Unstoppable writing;
+        return write_png(drawn.image, flags.output);
+      })
+      .and_then([&] { return report(session, flags, original, drawn, **context); })
+      .map([] { return kExitDone; });
+}
+
 Result<int> run(Session& session, const RenderFlags& flags) {
   if (const Result<void> good = check(session, flags); !good) return tl::unexpected(good.error());
+  if (flags.method == RenderMethod::kClip) return run_clip(session, flags);
   const Result<LoadedMesh> loaded = load_with_faces(session, flags.input);
   if (!loaded) return tl::unexpected(loaded.error());
   const Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
@@ -203,7 +244,7 @@ Run declare_render(OptionTable& table) {
   table.file("-o,--output", flags->output, "picture to write, .png; - is standard output").required = true;
   table
       .choice("--method", flags->method, render_methods(),
-              "coarse (default): as it is; refine: on the CPU; auto: as it goes best")
+              "coarse (default): as it is; refine: on the CPU; auto: as it goes best; clip: an asset of limn clip")
       .value = "NAME";
   table.count("--budget", flags->budget, 1, 1'000'000'000, "the most triangles --method patterns refines to");
   table.parsed("--size", "WxH", flags->size, parse_size, "of the picture (default 1024x1024)");
@@ -214,6 +255,7 @@ Run declare_render(OptionTable& table) {
   table.parsed("--background", "COLOR", flags->options.background, parse_color,
                "name, #rgb, #rrggbb, #rrggbbaa, transparent (default white)");
   table.choice("--samples", flags->options.samples, {{"1", 1}, {"4", 4}}, "a pixel (default 4)");
+  add_clip_options(table, flags->clip);
   table.begin(Group::kFiles);
   add_input_options(table, flags->input);
   add_camera_options(table, flags->camera);

@@ -42,6 +42,7 @@ std::span<const std::pair<std::string_view, RenderMethod>> render_methods() {
       {"coarse", RenderMethod::kCoarse},
       {"refine", RenderMethod::kRefine},
       {"auto", RenderMethod::kAuto},
+      {"clip", RenderMethod::kClip},
       {"patterns", RenderMethod::kPatterns},
       {"tess", RenderMethod::kTess},
       {"dyken", RenderMethod::kDyken},
@@ -63,7 +64,7 @@ std::string_view method_name(RenderMethod method) {
 }
 
 bool on_device(RenderMethod method) {
-  return method != RenderMethod::kCoarse && method != RenderMethod::kRefine;
+  return method != RenderMethod::kCoarse && method != RenderMethod::kRefine && method != RenderMethod::kClip;
 }
 
 Result<std::unique_ptr<RefinementMethod>> make_method(RenderMethod method, RefinementScene& scene,

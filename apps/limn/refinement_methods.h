@@ -16,6 +16,7 @@ enum class RenderMethod {
   kCoarse,  ///< as it is
   kRefine,  ///< refined on the CPU
   kAuto,    ///< the best that can do what is asked
+  kClip,    ///< a clip asset: its hull, clipped to the silhouette (clip_rendering.h)
   // All others on the graphics device.
   kPatterns,
   kTess,             ///< its own tessellation stages

@@ -112,6 +112,13 @@ TEST_F(Json, OfRefineIsAsDocumented) {
   expect_schema(limn.json({"refine", "broken.obj", "-o", "fine.ply", "--view", "0,0", "--repair"}), "refine");
 }
 
+TEST_F(Json, OfBakeIsAsDocumented) {
+  expect_schema(limn.json({"bake", "knot.ply", "knot.ply", "-o", "baked.glb", "--size", "128"}), "bake");
+  expect_schema(limn.json({"bake", "knot.ply", "knot.ply", "-o", "maps", "--size", "128", "--maps", "displacement,ao",
+                           "--ao-rays", "1", "--fail-if", "miss>100%", "--repair"}),
+                "bake");
+}
+
 #ifdef LIMN_WITH_GL
 
 TEST_F(Json, OfDemoIsAsDocumented) {

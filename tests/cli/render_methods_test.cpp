@@ -36,7 +36,7 @@ class RenderMethods : public testing::Test {
     for (const json& option : options) {
       if (option["name"] != "--method") continue;
       for (const std::string name : option["choices"])
-        if (name != "coarse" && name != "refine") names.push_back(name);
+        if (name != "coarse" && name != "refine" && name != "clip") names.push_back(name);
     }
     return names;
   }

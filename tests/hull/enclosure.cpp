@@ -56,16 +56,20 @@ struct Surface {
         std::min<std::size_t>(static_cast<std::size_t>(found - areas.begin()), faces.size() - 1));
   }
 
-  /// Whether just behind the face, near the point, the surface winds at least once.
-  bool has_inside_at(FaceId face, const DVec3& point) const {
+  /// Whether just behind the face, near a point outside another surface, this one winds at least once: what the other
+  /// encloses it does not enclose there.
+  bool reaches_out_at(FaceId face, const DVec3& point, const Surface& outer) const {
     const Triangle& t = faces[face];
     const DVec3 a(positions[t[0]]), b(positions[t[1]]), c(positions[t[2]]);
     const DVec3 across = glm::cross(b - a, c - a);
     const double length = glm::length(across);
     if (!(length > 0)) return false;
-    const double size = std::sqrt(length);
-    const DVec3 near = point + 1e-3 * ((a + b + c) / 3.0 - point) - (1e-9 * size / length) * across;
-    return !winding.is_on_surface(near) && winding.at(near) > 0;
+    for (const double step : {1e-3, 1e-5, 1e-7, 1e-9}) {
+      const DVec3 near = point + step * ((a + b + c) / 3.0 - point) - (1e-6 * step / std::sqrt(length)) * across;
+      if (outer.winding.holds(near)) continue;  // that was too far
+      return !winding.is_on_surface(near) && winding.at(near) > 0;
+    }
+    return false;
   }
 
   std::span<const Vec3> positions;
@@ -79,7 +83,7 @@ void look_at(const Surface& inner, const Surface& outer, FaceId face, const DVec
   if (outer.winding.is_on_surface(point)) {
     ++tally.on_surface;
   } else if (outer.winding.at(point) <= 0) {
-    ++(inner.has_inside_at(face, point) ? tally.outside : tally.nothing_inside);
+    ++(inner.reaches_out_at(face, point, outer) ? tally.outside : tally.nothing_inside);
   }
 }
 
@@ -129,7 +133,7 @@ void look_elsewhere(const Surface& inner, const Surface& outer, std::size_t coun
       }
       if (inner.winding.is_on_surface(point) || outer.winding.is_on_surface(point)) continue;
       ++part.elsewhere;
-      part.fewer += outer.winding.at(point) < inner.winding.at(point);
+      part.lost += inner.winding.at(point) > 0 && outer.winding.at(point) <= 0;
     }
     const std::lock_guard lock(adding);
     tally.add(part);
@@ -180,7 +184,7 @@ EnclosureTally prove(const Mesh& mesh, const EnclosureOptions& options, HullSide
   if (options.strict && self_intersections(shell.positions, shell.faces).empty())
     tally.crossings += self_intersections(reached.positions, reached.faces).size();
   if (tally.outside > 0) tally.objection = std::to_string(tally.outside) + " points outside";
-  if (tally.fewer > 0) tally.objection = std::to_string(tally.fewer) + " points wound fewer times";
+  if (tally.lost > 0) tally.objection = std::to_string(tally.lost) + " points inside are lost";
   if (tally.crossings > 0) tally.objection = std::to_string(tally.crossings) + " pairs of faces intersect";
   if (!tally.objection.empty()) tally.objection = (inwards ? "inner: " : "outer: ") + tally.objection;
   return tally;
@@ -198,7 +202,7 @@ void EnclosureTally::add(const EnclosureTally& other) {
   outside += other.outside;
   nothing_inside += other.nothing_inside;
   strays += other.strays;
-  fewer += other.fewer;
+  lost += other.lost;
   steps += other.steps;
   proved += other.proved;
   crossings += other.crossings;

@@ -23,7 +23,7 @@ struct EnclosureTally {
   /// Outside, but where the surface itself winds backwards, so that nothing inside is near; not counted in `outside`.
   std::size_t nothing_inside = 0;
   std::size_t strays = 0;  ///< vertices of inner hulls among those
-  std::size_t fewer = 0;   ///< of elsewhere: wound fewer times than before; must be 0
+  std::size_t lost = 0;    ///< of elsewhere: inside the enclosed surface alone; must be 0
   std::size_t steps = 0, proved = 0;
   std::size_t crossings = 0;  ///< pairs of faces that intersect in hulls whose shell had none
   std::string refused;        ///< why no shell was made
@@ -33,9 +33,9 @@ struct EnclosureTally {
 };
 
 /// Makes the outer and the inner hull of the mesh and proves them: every vertex of the enclosed surface, and points
-/// spread over it, inside or on the enclosing one; no point less often wound around; and the certificate of every step,
-/// from the bytes of the saved sequence alone. Winding numbers are exact (support/winding.h), and so are the points:
-/// their coordinates are on the faces without rounding.
+/// spread over it, inside or on the enclosing one; no point anywhere inside the enclosed one alone; and the certificate
+/// of every step, from the bytes of the saved sequence alone. Winding numbers are exact (support/winding.h), and so are
+/// the points: their coordinates are on the faces without rounding.
 EnclosureTally prove_enclosure(const Mesh& mesh, const EnclosureOptions& options, std::uint64_t seed);
 
 }  // namespace limn::test

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <gtest/gtest.h>
 
 #include "limn/base/file.h"
@@ -106,6 +107,19 @@ TEST(HullSequenceFile, AHugeCountAsksForNoMemory) {
     mend_hash(huge);
     EXPECT_FALSE(parse_hull_sequence(huge, "huge"));
   }
+}
+
+TEST(HullSequenceFile, EveryKeptFuzzFileIsReadOrRefused) {
+  std::size_t files = 0, read = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(LIMN_SOURCE_DIR) + "/fuzz/corpus/hullseq")) {
+    const Result<HullSequence> sequence = load_hull_sequence(entry.path());
+    ++files;
+    if (!sequence) continue;
+    ++read;
+    expect_well_formed(sequence->mesh_at(sequence->outermost()));
+  }
+  EXPECT_GE(files, 2u);
+  EXPECT_GE(read, 2u);
 }
 
 TEST(HullSequenceFile, ErrorsNameTheFile) {

@@ -235,6 +235,20 @@ TEST(HullSequence, CarriesUvsOfVerticesThatStay) {
   EXPECT_FALSE(HullSequence::make(shell, {}, {}, {Vec2(0)}));
 }
 
+TEST(ShellUvs, AreThoseOfAMeshWithoutSeams) {
+  Mesh mesh = *make_shape(Shape::kIcosphere, {.faces = 320});
+  const Shell shell = *make_shell(mesh);
+  EXPECT_TRUE(shell_uvs(mesh, shell).empty()) << "has a seam";
+  mesh.uvs = {};
+  EXPECT_TRUE(shell_uvs(mesh, shell).empty());
+  for (const Vec3& p : mesh.positions)
+    mesh.uvs.values.emplace_back(p.x, p.y);
+  const std::vector<Vec2> uvs = shell_uvs(mesh, shell);
+  ASSERT_EQ(uvs.size(), shell.positions.size());
+  for (std::size_t v = 0; v < uvs.size(); ++v)
+    EXPECT_EQ(uvs[v], Vec2(shell.positions[v].x, shell.positions[v].y));
+}
+
 TEST(HullSequence, RefusesStepsThatDoNotFit) {
   const Shell shell = shell_of(Shape::kTorus, 300);
   const std::vector<HullStep> good = random_steps(shell, 200, 7);

@@ -35,7 +35,7 @@ inline ClipAsset asset_of(const Mesh& original, const Mesh& hull) {
   Mesh mesh;
   mesh.positions = original.positions;
   mesh.faces = original.faces;
-  asset.levels.push_back({mesh, 0.0f});
+  asset.levels.push_back({mesh, 0.0f, {}});
   asset.bounds = face_bounds(original);
   return asset;
 }

@@ -154,7 +154,8 @@ TEST_F(ClipExact, BesideAModelThatReachesBehindTheEye) {
   for (Vec3& p : hull.positions)
     p *= 1.01f;
   ClipModel model = model_of(asset_of(mesh, hull));
-  EXPECT_EQ(expect_same(model, mesh, looking(Vec3(1.6f, 0.3f, 1.0f), Vec3(0.4f, 0.0f, -6.0f)), 256), EyePlace::kOutside);
+  EXPECT_EQ(expect_same(model, mesh, looking(Vec3(1.6f, 0.3f, 1.0f), Vec3(0.4f, 0.0f, -6.0f)), 256),
+            EyePlace::kOutside);
   EXPECT_EQ(expect_same(model, mesh, looking(Vec3(1.6f, 0.3f, 1.0f), Vec3(-1.0f, 0.0f, 1.0f), 2.4f), 256),
             EyePlace::kOutside);
 }

@@ -105,7 +105,8 @@ TEST(StencilLoops, EdgesOfFourFacesCloseTheLoopsToo) {
   StencilLoopBuilder builder(mesh, topology, planes);
   Random random(3);
   for (int view = 0; view < 50; ++view) {
-    const Eye eye{Vec3(static_cast<float>(random.uniform(-0.4, 0.4)), static_cast<float>(random.uniform(-0.4, 0.4)), 1.0f), true};
+    const Eye eye{
+        Vec3(static_cast<float>(random.uniform(-0.4, 0.4)), static_cast<float>(random.uniform(-0.4, 0.4)), 1.0f), true};
     std::vector<EdgeId> edges;
     extract_silhouette_brute(topology, planes, eye, edges);
     StencilLoops loops;
@@ -128,10 +129,11 @@ TEST(StencilLoops, OpenMeshesAreNotClosed) {
 }
 
 /// Faces whose corners, moved to any grid points around them, may change the turn of the triangle: the slow way.
-std::size_t count_missed(const Mesh& mesh, const Camera& camera, int size_px, std::size_t& found, std::size_t& flipped) {
+std::size_t count_missed(const Mesh& mesh, const Camera& camera, int size_px, std::size_t& found,
+                         std::size_t& flipped) {
   const CameraBlock block = make_camera_block(camera, size_px, size_px);
   const std::vector<Plane> planes = face_planes(mesh);
-  const EdgeOnFaces faces(mesh, build_topology(mesh), planes);
+  const EdgeOnFaces faces(mesh, leaf_clusters(mesh, build_topology(mesh), planes), planes);
   PictureScale scale;
   scale.eye = eye_of(camera);
   const glm::dmat3 axes = glm::transpose(glm::dmat3(block.rotation));

@@ -40,6 +40,8 @@ Result<void> check_options(const BakeOptions& options) {
     return out_of_range(fmt::format("mip level {}", options.clean_mip_level), "take -1 (automatic) to 8");
   if (options.gutter_px < 0 || options.gutter_px > 1024)
     return out_of_range(fmt::format("a gutter of {} texels", options.gutter_px), "take 0 to 1024");
+  if (!(options.most_stretch == 0.0 || options.most_stretch >= 1.0))
+    return out_of_range(fmt::format("a stretch of {}", options.most_stretch), "take 0, or 1 and more");
   if (!(options.max_distance >= 0.0) || !(options.occlusion_distance >= 0.0))
     return out_of_range("a negative distance", "take 0 for no bound");
   if (options.occlusion_rays < 1 || options.occlusion_rays > 65536)

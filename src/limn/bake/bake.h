@@ -45,8 +45,11 @@ struct BakeOptions {
   /// eighth of a tile's side. Every level costs texels: a tile of s texels holds legs of s − 3 · 2^level − 1.
   int clean_mip_level = -1;
   int gutter_px = 8;  ///< kOwnUvs: texels by which islands grow over the empty space around them
-  /// Longest ray, in the meshes' units; 0: none. What lies beyond is a miss.
+  /// Longest ray, in the meshes' units; 0: no bound. What lies beyond is a miss.
   double max_distance = 0;
+  /// A hit that is farther than a twentieth of the high mesh's diagonal, and farther than this many times the closest
+  /// point, gives way to that: the ray went past what it should have met. 0: never, as published. docs/baking.md
+  double most_stretch = 2;
   int occlusion_rays = 64;        ///< a texel, stratified
   double occlusion_distance = 0;  ///< what is farther does not occlude; 0: everything does
   std::uint64_t seed = 1;         ///< of the occlusion rays
@@ -58,6 +61,7 @@ struct BakeReport {
   std::size_t texels = 0;        ///< texels that belong to a face, gutters of tiles included
   std::size_t samples = 0;       ///< points of the low mesh that were asked, a texel's samples each
   std::size_t misses = 0;        ///< of those: neither direction met the high mesh rightly; 0 for kClosest
+  std::size_t overruled = 0;     ///< hits that gave way to closest points, \see BakeOptions::most_stretch; no misses
   double worst_distance = 0;     ///< the longest way from the low mesh to the high one, in the meshes' units
   int worst_x = 0, worst_y = 0;  ///< its texel
   FaceId worst_face = kInvalidId;

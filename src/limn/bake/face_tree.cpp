@@ -146,6 +146,18 @@ FacePoint FaceTree::closest(const Vec3& p, const FacePoint& hint) const {
     const float distance = place_on(best, p).distance;
     nearest = distance * distance;
   }
+  best = nearest_face(p, best, nearest);
+  return place_on(best == kInvalidId ? 0 : best, p);
+}
+
+FacePoint FaceTree::closest_within(const Vec3& p, float radius) const {
+  const FaceId best = nearest_face(p, kInvalidId, radius * radius);
+  return best == kInvalidId ? FacePoint{} : place_on(best, p);
+}
+
+/// The face nearest to p and nearer than the distance; `best` where there is none.
+FaceId FaceTree::nearest_face(const Vec3& p, FaceId best, float squared_distance) const {
+  float nearest = squared_distance;
   const Point4 point{all4(p.x), all4(p.y), all4(p.z)};
   Stack stack;
   stack.push({0, -1.0f});
@@ -170,7 +182,7 @@ FacePoint FaceTree::closest(const Vec3& p, const FacePoint& hint) const {
                       max4(max4(low.z - point.z, point.z - high.z), zero)};
     push_children(node.child, dot4(away, away), nearest, stack);
   }
-  return place_on(best == kInvalidId ? 0 : best, p);
+  return best;
 }
 
 /// Slabs for the boxes; triangles after Möller and Trumbore.

@@ -39,6 +39,8 @@ class FaceTree {
   /// the tree and `hint`. \param hint  any place on the faces that may be near, to start from; may be invalid
   /// \pre there is a face. Exact but for float rounding (about 1e-7 of the coordinates' size).
   FacePoint closest(const Vec3& p, const FacePoint& hint = {}) const;
+  /// The same if it is nearer than `radius`; else face kInvalidId, found sooner.
+  FacePoint closest_within(const Vec3& p, float radius) const;
 
   /// Where the ray first meets a face, from either side; face kInvalidId when nowhere. Faces reach a little beyond
   /// their sides, so that rays do not slip between neighbours but where those are needles.
@@ -72,6 +74,7 @@ class FaceTree {
   template <bool kAny>
   FacePoint trace(const TreeRay& ray) const;
   FacePoint place_on(FaceId face, const Vec3& p) const;
+  FaceId nearest_face(const Vec3& p, FaceId best, float squared_distance) const;
 
   std::vector<Node> nodes_;
   std::vector<Leaf> leaves_;

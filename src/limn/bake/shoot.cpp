@@ -8,6 +8,8 @@
 namespace limn::bake_detail {
 namespace {
 
+constexpr double kLongRay = 0.05;  // of the high mesh's diagonal: shorter ones are believed
+
 std::vector<Vec3> moved(const Mesh& mesh, const UnitFrame& frame) {
   // Vertices without faces may lie anywhere, beyond float once scaled too; no face needs them.
   std::vector<Vec3> positions(mesh.positions.size());
@@ -87,23 +89,39 @@ struct Target::Impl {
     return left_count;
   }
 
+  /// Gives long hits up for closest points that are far nearer.
+  void overrule(const ProbeBatch& probes, float most_stretch, FoundBatch& found) const {
+    for (std::size_t i = 0; i < probes.count; ++i) {
+      const float distance = std::abs(found.place[i].distance);
+      if (!found.hit[i] || !(distance > long_ray)) continue;
+      const FacePoint closest = tree.closest_within(probes.point(i), distance / most_stretch);
+      if (closest.face == kInvalidId) continue;
+      found.place[i] = closest;
+      found.hit[i] = false;
+      ++found.overruled;
+    }
+  }
+
   FaceTree tree;
   std::unique_ptr<RayCaster> caster;
+  float long_ray = 0;
 };
 
 Result<Target> Target::build(const Mesh& mesh, const UnitFrame& frame) {
   const std::vector<Vec3> positions = moved(mesh, frame);
   auto impl = std::make_unique<Impl>(positions, mesh.faces);
+  impl->long_ray = static_cast<float>(kLongRay * face_bounds(mesh).diagonal() * frame.scale);
   Result<RayCaster> caster = RayCaster::build(impl->tree, positions, mesh.faces);
   if (!caster) return tl::unexpected(caster.error());
   impl->caster = std::make_unique<RayCaster>(std::move(*caster));
   return Target(std::move(impl));
 }
 
-void Target::find(const ProbeBatch& probes, BakeMethod method, float bound, FoundBatch& found) const {
+void Target::find(const ProbeBatch& probes, const FindOptions& options, FoundBatch& found) const {
+  found.overruled = 0;
   // Neighbours mostly end up near each other: each starts from where the one before it did.
   FacePoint hint;
-  if (method == BakeMethod::kClosest) {
+  if (options.method == BakeMethod::kClosest) {
     for (std::size_t i = 0; i < probes.count; ++i) {
       hint = found.place[i] = impl_->tree.closest(probes.point(i), hint);
       found.hit[i] = false;
@@ -111,12 +129,13 @@ void Target::find(const ProbeBatch& probes, BakeMethod method, float bound, Foun
     return;
   }
   std::size_t left[kProbeBatch];
-  const std::size_t left_count = impl_->shoot(probes, bound, found, left);
+  const std::size_t left_count = impl_->shoot(probes, options.bound, found, left);
   for (std::size_t k = 0; k < left_count; ++k) {
     const std::size_t i = left[k];
     if (i > 0 && found.hit[i - 1]) hint = found.place[i - 1];
     hint = found.place[i] = impl_->tree.closest(probes.point(i), hint);
   }
+  if (options.most_stretch > 0.0f) impl_->overrule(probes, options.most_stretch, found);
 }
 
 std::size_t Target::count_open(const Vec3& origin, std::span<const Vec3> directions, float bound) const {

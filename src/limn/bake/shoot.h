@@ -45,6 +45,14 @@ struct ProbeBatch {
 struct FoundBatch {
   FacePoint place[kProbeBatch];  ///< distance: signed and along the normal for a hit; for a miss the length of the way
   bool hit[kProbeBatch];         ///< by a ray; else the closest point
+  std::size_t overruled = 0;     ///< hits that gave way to a closest point; they are hits no longer
+};
+
+/// How probes look for their places.
+struct FindOptions {
+  BakeMethod method = BakeMethod::kShoot;
+  float bound = 0;         ///< longest ray, in the unit frame
+  float most_stretch = 0;  ///< \see BakeOptions
 };
 
 /// A mesh made ready to be found from points beside it. docs/baking.md
@@ -61,7 +69,7 @@ class Target {
   /// if it is turned away; both no farther than `bound`; else the closest point. With kClosest the closest point
   /// always. Rays begin kTouching behind the point, so that a surface that runs through it is met at a distance of
   /// about 0. Same bits for the same batch. \pre everything finite
-  void find(const ProbeBatch& probes, BakeMethod method, float bound, FoundBatch& found) const;
+  void find(const ProbeBatch& probes, const FindOptions& options, FoundBatch& found) const;
 
   /// How many of the rays from one origin run for `bound` without meeting a face. \pre at most kProbeBatch directions
   std::size_t count_open(const Vec3& origin, std::span<const Vec3> directions, float bound) const;

@@ -26,7 +26,7 @@ struct Texel {
 
 /// What a block found, to be added up in the order of blocks.
 struct BlockReport {
-  std::size_t texels = 0, misses = 0;
+  std::size_t texels = 0, misses = 0, overruled = 0;
   float worst = -1.0f;
   Texel worst_texel{};
   float low = 0.0f, high = 0.0f;
@@ -94,7 +94,8 @@ class Filler {
                                            : 1),
         samples_(static_cast<std::size_t>(scene.options.samples)) {
     const double scale = scene.frame.scale;
-    bound_ = bound_of(scene.options.max_distance, scale);
+    find_ = {scene.options.method, bound_of(scene.options.max_distance, scale),
+             static_cast<float>(scene.options.most_stretch)};
     occlusion_bound_ = bound_of(scene.options.occlusion_distance, scale);
     unit_length_ = static_cast<float>(1.0 / scale);
   }
@@ -175,7 +176,8 @@ class Filler {
     FoundBatch found;
     Vec3 normals[kProbeBatch];
     lay_probes(texels, probes);
-    scene_.target.find(probes, scene_.options.method, bound_, found);
+    scene_.target.find(probes, find_, found);
+    report.overruled += found.overruled;
     scene_.surface.normals(std::span(found.place, probes.count), normals);
     for (std::size_t t = 0; t < texels.size(); ++t) {
       Sums sums;
@@ -268,7 +270,8 @@ class Filler {
   const BakeScene& scene_;
   BakedMaps& maps_;
   std::size_t side_, samples_;
-  float bound_ = 0, occlusion_bound_ = 0;
+  FindOptions find_;
+  float occlusion_bound_ = 0;
   float unit_length_ = 1;
 };
 
@@ -277,6 +280,7 @@ void sum_up(const std::vector<BlockReport>& blocks, const BakeScene& scene, Bake
   for (const BlockReport& block : blocks) {
     report.texels += block.texels;
     report.misses += block.misses;
+    report.overruled += block.overruled;
     report.displacement_low = std::min<double>(report.displacement_low, block.low);
     report.displacement_high = std::max<double>(report.displacement_high, block.high);
     if (!(block.worst > worst)) continue;
@@ -287,7 +291,7 @@ void sum_up(const std::vector<BlockReport>& blocks, const BakeScene& scene, Bake
     report.worst_face = block.worst_texel.face;
   }
   report.samples = report.texels * static_cast<std::size_t>(scene.options.samples);
-  if (scene.options.method == BakeMethod::kClosest) report.misses = 0;
+  report.misses = scene.options.method == BakeMethod::kClosest ? 0 : report.misses - report.overruled;
 }
 
 }  // namespace

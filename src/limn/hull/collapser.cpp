@@ -22,8 +22,8 @@ constexpr std::uint32_t kDead = 0x40000000u;
 
 /// Spacing of floats about the two points and as far away as a vertex may go, halved.
 double half_spacing(const DVec3& a, const DVec3& b, double reach) {
-  const DVec3 largest = glm::max(glm::abs(a), glm::abs(b)) + reach;
-  return glm::length(largest) * 0x1.0p-24 + 0x1.0p-149;
+  const DVec3 largest = glm::max(glm::abs(a), glm::abs(b));
+  return (largest.x + largest.y + largest.z + 3.0 * reach) * 0x1.0p-24 + 0x1.0p-148;
 }
 
 }  // namespace
@@ -90,31 +90,25 @@ void Collapser::offer(VertexId a, VertexId b) {
   }
 }
 
-/// The planes of all faces around an edge, about its middle, in lengths of the edge.
-void Collapser::gather(VertexId a, VertexId b, const Vec3& half, float margin, Workspace& workspace) const {
-  PlacementPlanes& planes = workspace.planes;
-  planes.clear();
-  workspace.areas.clear();
-  Vec3 gradient(0.0f);
-  const auto add = [&](FaceId face, const Vec3& point) {
-    const FacePlane& plane = surface_.plane(face);
-    if (!(plane.area > 0.0f)) return;  // a face without extent is outside of nothing
-    planes.add(plane.normal, glm::dot(plane.normal, point) + margin);
-    workspace.areas.push_back(plane.area);
-    gradient += plane.area * plane.normal;
-  };
-  FaceId left = kInvalidId, right = kInvalidId;
+/// The faces around an edge: first those around a. \return how many those are
+std::size_t Collapser::gather(VertexId a, VertexId b, std::vector<FaceId>& faces) const {
   const std::span<const RingLink> ring_a = surface_.ring(a);
-  for (std::size_t i = 0; i < ring_a.size(); ++i) {
-    add(ring_a[i].face, -half);
-    if (ring_a[i].vertex != b) continue;
-    left = ring_a[i].face;
-    right = ring_a[i == 0 ? ring_a.size() - 1 : i - 1].face;
+  const std::span<const RingLink> ring_b = surface_.ring(b);
+  if (faces.size() < ring_a.size() + ring_b.size()) faces.resize(2 * (ring_a.size() + ring_b.size()));
+  FaceId left = kInvalidId, right = kInvalidId;
+  FaceId* end = faces.data();
+  FaceId last = ring_a.back().face;
+  for (const RingLink& link : ring_a) {
+    *end++ = link.face;
+    left = link.vertex == b ? link.face : left;
+    right = link.vertex == b ? last : right;
+    last = link.face;
   }
-  for (const RingLink& link : surface_.ring(b)) {
-    if (link.face != left && link.face != right) add(link.face, half);
+  for (const RingLink& link : ring_b) {
+    *end = link.face;
+    end += link.face != left && link.face != right ? 1 : 0;
   }
-  workspace.gradient = gradient;
+  return static_cast<std::size_t>(end - faces.data());
 }
 
 bool Collapser::place(VertexId a, VertexId b, Workspace& workspace, Candidate& candidate) const {
@@ -124,19 +118,21 @@ bool Collapser::place(VertexId a, VertexId b, Workspace& workspace, Candidate& c
   const double length = glm::length(along);
   candidate = {a, b, born_[a] + born_[b], touched_[a] + touched_[b], surface_.position(a), 0.0f};
   if (length == 0.0) return true;  // nothing moves
-  const auto margin = static_cast<float>(half_spacing(at_a, at_b, reach_ * length) / length + kAim);
-  gather(a, b, Vec3(along * (0.5 / length)), margin, workspace);
-  const double steepness = glm::length(DVec3(workspace.gradient));
+  const double inverse = 1.0 / length;
+  const auto margin = static_cast<float>(half_spacing(at_a, at_b, reach_ * length) * inverse + kAim);
+  const std::size_t count = gather(a, b, workspace.faces);
+  PlacementPlanes& planes = workspace.planes;
+  planes.set(surface_.planes(), std::span(workspace.faces).first(count), surface_.degree(a),
+             Vec3(along * (0.5 * inverse)), margin);
+  const DVec3 gradient = planes.gradient();
+  const double steepness = glm::length(gradient);
   if (!(steepness > 0.0)) return false;
   DVec3 x;
-  if (!nearest_point(workspace.planes, DVec3(workspace.gradient) * (-1.0 / (kTie * steepness)), x)) return false;
+  if (!nearest_point(planes, gradient * (-1.0 / (kTie * steepness)), x)) return false;
   if (glm::dot(x, x) > reach_ * reach_) return false;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < workspace.planes.size(); ++i)
-    sum += double{workspace.areas[i]} * std::max(0.0, workspace.planes.side(i, x) + double{margin});
   candidate.position = Vec3(0.5 * (at_a + at_b) + x * length);
   const double scaled = length * surface_.scale();
-  candidate.cost = static_cast<float>(sum * scaled / 3.0 + kShape * scaled * scaled * scaled);
+  candidate.cost = static_cast<float>(planes.volume3(x, margin) * scaled / 3.0 + kShape * scaled * scaled * scaled);
   return is_finite(candidate.position);
 }
 

@@ -54,12 +54,11 @@ class Collapser {
   /// What placing one edge needs, so that threads can place edges at once.
   struct Workspace {
     PlacementPlanes planes;
-    std::vector<float> areas;
-    Vec3 gradient{0};
+    std::vector<FaceId> faces;
   };
 
   bool place(VertexId a, VertexId b, Workspace& workspace, Candidate& candidate) const;
-  void gather(VertexId a, VertexId b, const Vec3& half, float margin, Workspace& workspace) const;
+  std::size_t gather(VertexId a, VertexId b, std::vector<FaceId>& faces) const;
   void offer(VertexId a, VertexId b);
   bool refresh(Candidate& candidate);
   bool folds(VertexId v, VertexId skip, const Vec3& position) const;

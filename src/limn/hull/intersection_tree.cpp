@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 
+#include "limn/base/orient3d.h"
+
 namespace limn {
 namespace {
 
@@ -122,6 +124,14 @@ bool IntersectionTree::hits(std::span<const Corners> triangles, std::span<const 
     if (!clear) return true;
   }
   return false;
+}
+
+bool IntersectionTree::crosses(const Vec3& p, const Vec3& q) const {
+  return !visit_boxes(bounds_of(std::array{p, q}), [&](FaceId face) {
+    const Corners& t = corners_[face];
+    if (orient3d(t[0], t[1], t[2], p) * orient3d(t[0], t[1], t[2], q) >= 0) return true;
+    return !segment_meets_triangle(p, q, t);
+  });
 }
 
 void IntersectionTree::for_each_hit_above(FaceId face, const std::function<void(FaceId)>& visit) const {

@@ -28,6 +28,10 @@ class IntersectionTree {
   /// order.
   void for_each_hit_above(FaceId face, const std::function<void(FaceId)>& visit) const;
 
+  /// Whether the way from p straight to q passes through a face from one side to the other. A face whose plane p lies
+  /// in is not crossed, nor one that q lies on. Exact.
+  bool crosses(const Vec3& p, const Vec3& q) const;
+
   /// Takes a face out. Removing it again changes nothing. Cost: logarithmic.
   void remove(FaceId face);
   /// Puts a face where its corners are now; one that was taken out is back in. Cost: logarithmic.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "limn/base/orient3d.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::size_t kFollowed = 1 << 14;   // vertices that a waist's sides are followed over
 constexpr std::size_t kFillable = 512;       // faces of a cavity that is tried to fill at once
+constexpr double kFillShare = 0.01;          // of the whole volume, that a cavity may have to be filled at once
 constexpr std::size_t kCornerTries = 32;     // vertices of a cavity that are tried as the point it is seen from
 constexpr std::size_t kSmallPart = 128;      // faces of a part that may go together with others
 constexpr std::ptrdiff_t kFalls = 4;         // winding numbers above this are not worth looking for
@@ -44,7 +46,11 @@ void for_each_face(const RingSurface& surface, VertexId v, const Body& body) {
 }  // namespace
 
 PartSurgery::PartSurgery(RingSurface& surface, std::vector<HullStep>& log, Certificate& certificate)
-    : surface_(surface), log_(log), certificate_(certificate), marks_(surface.vertex_count(), 0) {}
+    : surface_(surface), log_(log), certificate_(certificate), marks_(surface.vertex_count(), 0) {
+  std::vector<FaceId> ids;
+  const std::vector<Triangle> faces = surface.faces(ids);
+  whole_volume_ = faces.empty() ? 0.0 : std::abs(volume_of(faces, surface));
+}
 
 /// Follows both sides of the triangle at once until the smaller ends or they meet.
 PartSurgery::Beyond PartSurgery::beyond(VertexId a, VertexId b, VertexId c) {
@@ -186,7 +192,9 @@ std::vector<Vec3> PartSurgery::star_centers(const Part& part) const {
 }
 
 bool PartSurgery::fill(const Part& part) {
-  if (part.faces.size() > kFillable || volume_of(part.faces, surface_) > 0.0) return false;
+  if (part.faces.size() > kFillable) return false;
+  const double volume = volume_of(part.faces, surface_);
+  if (volume > 0.0 || -volume > kFillShare * whole_volume_) return false;
   for (const Vec3& center : star_centers(part)) {
     Certificate certificate;
     if (!is_star_from(part, center, certificate)) continue;
@@ -208,6 +216,14 @@ void PartSurgery::go(const Part& part, HullStep::Kind kind, const Vec3& witness)
   log_.push_back(step);
 }
 
+std::size_t PartSurgery::count_faces(const std::vector<VertexId>& part) const {
+  std::size_t corners = 0;
+  for (const VertexId v : part)
+    corners += surface_.degree(v);
+  return corners / 3;
+}
+
+/// All parts, those of fewest faces first; none where there is only one.
 std::vector<PartSurgery::Part> PartSurgery::find_parts() {
   std::vector<Part> parts;
   marks_.resize(surface_.vertex_count(), 0);
@@ -223,6 +239,7 @@ std::vector<PartSurgery::Part> PartSurgery::find_parts() {
         vertices.push_back(link.vertex);
       }
     }
+    if (parts.empty() && count_faces(vertices) == surface_.live_faces()) return {};
     parts.push_back(make_part(std::move(vertices)));
   }
   std::stable_sort(parts.begin(), parts.end(),

@@ -22,8 +22,8 @@ class PartSurgery {
   /// be. \param changed  gets the vertices whose faces changed
   bool cut_waist(VertexId a, VertexId b, std::vector<VertexId>& changed);
 
-  /// Fills cavities, and drops parts that lie where the others' winding number is positive.
-  /// \return whether anything went. Cost: parts times faces, bounded
+  /// Fills cavities of up to a hundredth of the whole volume, and drops parts that lie where the others' winding number
+  /// is positive. \return whether anything went. Cost: parts times faces, bounded
   bool clean(std::vector<VertexId>& changed);
 
   std::size_t cuts() const { return cuts_; }
@@ -52,6 +52,7 @@ class PartSurgery {
   bool is_star_from(const Part& part, const Vec3& point, Certificate& certificate) const;
   std::vector<Vec3> star_centers(const Part& part) const;
   Part make_part(std::vector<VertexId> vertices) const;
+  std::size_t count_faces(const std::vector<VertexId>& part) const;
   std::vector<Part> find_parts();
   std::vector<std::size_t> hidden_group(std::size_t first, const std::vector<Part>& parts) const;
   Bounds box_of(const Part& part) const;
@@ -67,6 +68,7 @@ class PartSurgery {
   Certificate& certificate_;
   std::vector<std::uint32_t> marks_;
   std::uint32_t mark_ = 0;
+  double whole_volume_ = 0;
   std::size_t cuts_ = 0, filled_ = 0, dropped_ = 0;
 };
 

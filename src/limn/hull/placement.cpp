@@ -13,7 +13,8 @@
 namespace limn {
 namespace {
 
-constexpr double kParallel = 1e-20;  // square of the sine of an angle between planes
+constexpr double kParallel = 1e-20;                             // square of the sine of an angle between planes
+constexpr float kNowhere = -std::numeric_limits<float>::max();  // offset of a half-space that holds everything
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The half-spaces that hold the point, with their multipliers.
@@ -95,23 +96,81 @@ bool enter(ActiveSet& active, const DVec3& normal, double side, DVec3& point) {
 
 }  // namespace
 
-void PlacementPlanes::grow() {
-  const std::size_t size = nx_.empty() ? 64 : 2 * nx_.size();
-  for (std::vector<float>* values : {&nx_, &ny_, &nz_, &offset_, &side_})
+void PlacementPlanes::reserve(std::size_t count) {
+  if (count + kLanes <= nx_.size()) return;
+  const std::size_t size = std::max<std::size_t>(64, 2 * (count + kLanes));
+  for (std::vector<float>* values : {&nx_, &ny_, &nz_, &offset_, &area_, &side_})
     values->resize(size);
+}
+
+void PlacementPlanes::set(std::span<const FacePlane> planes, std::span<const FaceId> faces, std::size_t count_a,
+                          const Vec3& half, float margin) {
+  count_ = faces.size();
+  reserve(count_);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const FacePlane& plane = planes[faces[i]];
+    nx_[i] = plane.normal.x;
+    ny_[i] = plane.normal.y;
+    nz_[i] = plane.normal.z;
+    area_[i] = plane.area;
+    side_[i] = i < count_a ? -1.0f : 1.0f;
+  }
+  pad();
+  // Whole groups of lanes, so that compilers make vector code of it.
+  for (std::size_t i = 0; i < count_; i += kLanes) {
+    for (std::size_t k = i; k < i + kLanes; ++k) {
+      const float base = nx_[k] * half.x + ny_[k] * half.y + nz_[k] * half.z;
+      offset_[k] = area_[k] > 0.0f ? side_[k] * base + margin : kNowhere;
+    }
+  }
+}
+
+void PlacementPlanes::add(const Vec3& normal, float offset) {
+  reserve(count_ + 1);
+  nx_[count_] = normal.x;
+  ny_[count_] = normal.y;
+  nz_[count_] = normal.z;
+  area_[count_] = 0.0f;
+  offset_[count_++] = offset;
 }
 
 /// Fills the last group of lanes with half-spaces that everything is in.
 void PlacementPlanes::pad() {
   for (std::size_t i = count_; i % kLanes != 0; ++i) {
-    nx_[i] = ny_[i] = nz_[i] = 0.0f;
-    offset_[i] = -std::numeric_limits<float>::max();
+    nx_[i] = ny_[i] = nz_[i] = area_[i] = side_[i] = 0.0f;
+    offset_[i] = kNowhere;
   }
+}
+
+DVec3 PlacementPlanes::gradient() const {
+  std::array<float, kLanes> x{}, y{}, z{};
+  for (std::size_t i = 0; i < count_; i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      x[k] += area_[i + k] * nx_[i + k];
+      y[k] += area_[i + k] * ny_[i + k];
+      z[k] += area_[i + k] * nz_[i + k];
+    }
+  }
+  const auto sum = [](const std::array<float, kLanes>& v) { return double{(v[0] + v[1]) + (v[2] + v[3])}; };
+  return {sum(x), sum(y), sum(z)};
+}
+
+double PlacementPlanes::volume3(const DVec3& at, float margin) const {
+  const Vec3 p(at);
+  std::array<float, kLanes> sum{};
+  for (std::size_t i = 0; i < count_; i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const float side = nx_[i + k] * p.x + ny_[i + k] * p.y + nz_[i + k] * p.z - offset_[i + k];
+      const float distance = area_[i + k] > 0.0f ? side + margin : 0.0f;
+      sum[k] += area_[i + k] * (distance > 0.0f ? distance : 0.0f);
+    }
+  }
+  return double{(sum[0] + sum[1]) + (sum[2] + sum[3])};
 }
 
 #if defined(__SSE2__)
 std::size_t PlacementPlanes::most_violated(const DVec3& x, float& least) {
-  pad();
+  if (count_ % kLanes != 0) pad();
   const __m128 px = _mm_set1_ps(static_cast<float>(x.x));
   const __m128 py = _mm_set1_ps(static_cast<float>(x.y));
   const __m128 pz = _mm_set1_ps(static_cast<float>(x.z));

@@ -1,26 +1,34 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "limn/base/vec.h"
+#include "limn/mesh/ids.h"
 
 namespace limn {
 
-/// Half-spaces normal·x >= offset with unit normals, side by side for the processor's sake, in a frame whose unit is
-/// about how far away answers are: floats are enough there.
+/// Unit normal and area of a face; both 0 for a face without extent.
+struct FacePlane {
+  Vec3 normal{0};
+  float area = 0;
+};
+
+/// Half-spaces normal·x >= offset with unit normals and weights, side by side for the processor's sake, in a frame
+/// whose unit is about how far away answers are: floats are enough there.
 class PlacementPlanes {
  public:
-  void clear() { count_ = 0; }
-  std::size_t size() const { return count_; }
-  void add(const Vec3& normal, float offset) {
-    if (count_ + kLanes > nx_.size()) grow();
-    nx_[count_] = normal.x;
-    ny_[count_] = normal.y;
-    nz_[count_] = normal.z;
-    offset_[count_++] = offset;
-  }
+  /// Half-spaces in front of faces, each pushed out by `margin`. Faces without extent are in front of nothing.
+  /// \param faces  indices into planes; the first `count_a` of them pass through -half, the others through half
+  void set(std::span<const FacePlane> planes, std::span<const FaceId> faces, std::size_t count_a, const Vec3& half,
+           float margin);
 
+  /// One by one instead. \pre normal is of unit length
+  void clear() { count_ = 0; }
+  void add(const Vec3& normal, float offset);
+
+  std::size_t size() const { return count_; }
   DVec3 normal(std::size_t i) const { return {double{nx_[i]}, double{ny_[i]}, double{nz_[i]}}; }
   /// Distance of x into the half-space; negative outside of it.
   double side(std::size_t i, const DVec3& x) const {
@@ -28,13 +36,17 @@ class PlacementPlanes {
   }
   /// The half-space that x is farthest outside of (of equals the first), and its side in float. \pre size() > 0
   std::size_t most_violated(const DVec3& x, float& side);
+  /// Sum of area times normal, of the faces that were set.
+  DVec3 gradient() const;
+  /// Sum of area times distance of x from the faces' planes, in front of them: three times the volume added.
+  double volume3(const DVec3& x, float margin) const;
 
  private:
   static constexpr std::size_t kLanes = 4;
-  void grow();
+  void reserve(std::size_t count);
   void pad();
 
-  std::vector<float> nx_, ny_, nz_, offset_, side_;
+  std::vector<float> nx_, ny_, nz_, offset_, area_, side_;
   std::size_t count_ = 0;
 };
 

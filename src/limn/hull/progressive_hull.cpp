@@ -9,6 +9,7 @@
 
 #include "limn/hull/certificate.h"
 #include "limn/hull/collapser.h"
+#include "limn/hull/inside_guard.h"
 #include "limn/hull/part_surgery.h"
 #include "limn/hull/ring_surface.h"
 #include "limn/hull/strict_guard.h"
@@ -18,14 +19,10 @@
 namespace limn {
 namespace {
 
-constexpr std::size_t kSeldom = 1024;            // collapses between two reports of progress
-constexpr std::size_t kCleanFrom = 16;           // hidden parts are looked for from so many times the target on
-constexpr double kCleanStep = 0.75;              // and again when that much of what is above the target is left
-#ifdef TRY
-const double kReaches[] = {std::getenv("REACH")?std::atof(std::getenv("REACH")):10.0, 1e3};
-#else
-constexpr double kReaches[] = {10.0, 1e3};
-#endif  // edge lengths that a vertex may move: farther when nothing is left
+constexpr std::size_t kSeldom = 1024;       // collapses between two reports of progress
+constexpr std::size_t kCleanFrom = 16;      // hidden parts are looked for from so many times the target on
+constexpr double kCleanStep = 0.75;         // and again when that much of what is above the target is left
+constexpr double kReaches[] = {10.0, 1e3};  // edge lengths that a vertex may move: farther when nothing is left
 
 double volume_of(std::span<const Vec3> positions, std::span<const Triangle> faces) {
   Bounds box;
@@ -45,13 +42,22 @@ double volume_of(std::span<const Vec3> positions, std::span<const Triangle> face
   return volume;
 }
 
+/// What must consent to every step besides its certificate; nullptr where nothing need.
+std::unique_ptr<StepGuard> guard_for(const Shell& shell, const HullOptions& options) {
+  if (!options.strict && options.side == HullSide::kOuter) return nullptr;
+  auto guards = std::make_unique<StepGuards>();
+  if (options.side == HullSide::kInner) guards->add(std::make_unique<InsideGuard>(shell));
+  if (options.strict) guards->add(std::make_unique<StrictGuard>(shell));
+  return guards;
+}
+
 /// Takes a surface to a number of faces.
 class Shrinker {
  public:
-  Shrinker(RingSurface& surface, const HullOptions& options)
+  Shrinker(const Shell& shell, RingSurface& surface, const HullOptions& options)
       : surface_(surface),
         options_(options),
-        guard_(options.strict ? std::make_unique<StrictGuard>(surface) : nullptr),
+        guard_(guard_for(shell, options)),
         collapser_(surface, steps_, certificate_, guard_.get()),
         surgery_(surface, steps_, certificate_),
         first_faces_(surface.live_faces()) {}
@@ -96,7 +102,7 @@ class Shrinker {
     std::vector<VertexId> changed;
     for (std::size_t i = 0; surface_.live_faces() > options_.faces; ++i) {
       if (i % kSeldom == 0 && !report_progress()) return false;
-      if (surface_.live_faces() <= next_cleaning_) clean();
+      if (surface_.live_faces() <= next_cleaning_ && !options_.strict) clean();
       const Collapser::Outcome outcome = collapser_.step();
       if (outcome == Collapser::Outcome::kExhausted) return true;
       if (outcome != Collapser::Outcome::kLinked || options_.strict) continue;
@@ -107,6 +113,7 @@ class Shrinker {
   }
 
   bool clean() {
+    if (options_.strict) return false;  // cuts and what they leave touch
     const double above = static_cast<double>(surface_.live_faces() - std::min(surface_.live_faces(), options_.faces));
     next_cleaning_ = options_.faces + static_cast<std::size_t>(kCleanStep * above);
     std::vector<VertexId> changed;
@@ -187,7 +194,7 @@ Result<Hull> shrink(Shell shell, const HullOptions& options, std::vector<VertexI
   const bool inner = options.side == HullSide::kInner;
   Hull hull;
   RingSurface surface(shell, inner);
-  Shrinker shrinker(surface, options);
+  Shrinker shrinker(shell, surface, options);
   if (!shrinker.run()) return fail(ErrorCode::kCancelled, "the hull was cancelled");
   extract(surface, inner, hull);
   shrinker.fill_report(hull.report);

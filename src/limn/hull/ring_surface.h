@@ -6,6 +6,7 @@
 
 #include "limn/base/vec.h"
 #include "limn/hull/hull_step.h"
+#include "limn/hull/placement.h"
 #include "limn/hull/shell.h"
 #include "limn/mesh/ids.h"
 
@@ -15,12 +16,6 @@ namespace limn {
 struct RingLink {
   VertexId vertex;
   FaceId face;
-};
-
-/// Unit normal and area of a face, in units of the surface's scale.
-struct FacePlane {
-  Vec3 normal{0};
-  float area = 0;
 };
 
 /// A closed surface of vertices that each know their neighbours in order, counter-clockwise seen from outside: what
@@ -39,6 +34,7 @@ class RingSurface {
   std::span<const RingLink> ring(VertexId v) const { return {links_.data() + slots_[v].begin, slots_[v].degree}; }
   std::span<const Vec3> positions() const { return positions_; }
   const Vec3& position(VertexId v) const { return positions_[v]; }
+  std::span<const FacePlane> planes() const { return planes_; }
   const FacePlane& plane(FaceId f) const { return planes_[f]; }
   /// Place of a neighbour in the ring of v; degree(v) where it is none.
   std::uint32_t find(VertexId v, VertexId neighbour) const;

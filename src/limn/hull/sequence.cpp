@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "limn/hull/step_replay.h"
 #include "limn/mesh/normals.h"
@@ -153,6 +154,30 @@ std::vector<VertexId> HullSequence::heirs_at(int level) const {
   }
   heirs.resize(shell_.positions.size());
   return heirs;
+}
+
+std::vector<Vec2> shell_uvs(const Mesh& mesh, const Shell& shell) {
+  if (mesh.uvs.empty()) return {};
+  std::vector<std::optional<Vec2>> found(shell.positions.size());
+  for (FaceId face = 0; face < shell.faces.size(); ++face) {
+    const FaceId source = shell.source_face[face];
+    if (source == kInvalidId) continue;
+    for (const VertexId v : shell.faces[face]) {
+      for (int c = 0; c < 3; ++c) {
+        // Corners are told by their places: a face may have been split.
+        if (mesh.positions[mesh.faces[source][static_cast<std::size_t>(c)]] != shell.positions[v]) continue;
+        const Vec2 uv = mesh.corner(mesh.uvs, source, c);
+        if (found[v] && *found[v] != uv) return {};
+        found[v] = uv;
+      }
+    }
+  }
+  std::vector<Vec2> uvs;
+  for (const std::optional<Vec2>& uv : found) {
+    if (!uv) return {};
+    uvs.push_back(*uv);
+  }
+  return uvs;
 }
 
 HullCursor::HullCursor(const HullSequence& sequence)

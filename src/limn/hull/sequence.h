@@ -87,6 +87,10 @@ class HullSequence {
   std::vector<Vec2> uvs_;
 };
 
+/// Texture coordinates for the vertices of a mesh's shell: where all faces of each agree, as they do without seams;
+/// none where two disagree, or where closing added a vertex.
+std::vector<Vec2> shell_uvs(const Mesh& mesh, const Shell& shell);
+
 /// A place in a sequence that moves a step at a time, both ways, in time proportional to the faces a step touches.
 /// The sequence must outlive it.
 class HullCursor {

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "limn/hull/hull_step.h"
 #include "limn/hull/ring_surface.h"
 
@@ -17,6 +22,23 @@ class StepGuard {
   virtual bool allows(const RingSurface& surface, const HullStep& step) = 0;
   /// \param surface  as it is after the step
   virtual void taken(const RingSurface& surface, const HullStep& step) = 0;
+};
+
+/// Several guards: a step needs the consent of all.
+class StepGuards : public StepGuard {
+ public:
+  void add(std::unique_ptr<StepGuard> guard) { guards_.push_back(std::move(guard)); }
+
+  bool allows(const RingSurface& surface, const HullStep& step) override {
+    return std::all_of(guards_.begin(), guards_.end(), [&](const auto& guard) { return guard->allows(surface, step); });
+  }
+  void taken(const RingSurface& surface, const HullStep& step) override {
+    for (const auto& guard : guards_)
+      guard->taken(surface, step);
+  }
+
+ private:
+  std::vector<std::unique_ptr<StepGuard>> guards_;
 };
 
 }  // namespace limn

@@ -3,26 +3,27 @@
 #include <vector>
 
 #include "limn/hull/intersection_tree.h"
+#include "limn/hull/shell.h"
 #include "limn/hull/step_guard.h"
 
 namespace limn {
 
-/// Allows no step whose new faces would meet each other or a face that stays, beyond what they share: a surface without
-/// self-intersections never gets one, and what others have can only become less. Knows collapses, moves and flips.
+/// Allows a collapse when none of its new faces meets another face, beyond corners and sides that they share: a surface
+/// that does not cross or touch itself then never will. Exact. Other steps it does not know, and refuses.
+/// Cost: a search of a tree of boxes a collapse.
 class StrictGuard : public StepGuard {
  public:
-  /// Cost: n log n, once; then logarithmic for each face a step touches. \pre no face of the surface has died yet
-  explicit StrictGuard(const RingSurface& surface);
+  explicit StrictGuard(const Shell& shell) : tree_(shell.positions, shell.faces) {}
 
   bool allows(const RingSurface& surface, const HullStep& step) override;
   void taken(const RingSurface& surface, const HullStep& step) override;
 
  private:
-  void replace_ring(const RingSurface& surface, VertexId vertex, const HullStep& step);
+  void gather(const RingSurface& surface, VertexId v, VertexId skip, const Vec3& after);
 
   IntersectionTree tree_;
-  std::vector<Corners> new_faces_;
-  std::vector<FaceId> old_faces_;
+  std::vector<Corners> triangles_;
+  std::vector<FaceId> replaced_;
 };
 
 }  // namespace limn

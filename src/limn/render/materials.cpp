@@ -20,16 +20,6 @@ constexpr unsigned kNormalUnit = 15;
 constexpr std::size_t kMostTexels = std::size_t{1} << 28;  // of an array: 1 GiB without its mipmaps
 
 /// A material as shaders/material_table.glsl reads it (std430).
-struct TableEntry {
-  Vec3 base_color{0.8f};
-  float metallic = 0.0f;
-  float roughness = 0.6f;
-  std::int32_t base_color_layer = -1;
-  std::int32_t normal_layer = -1;
-  float normal_scale = 1.0f;
-};
-static_assert(sizeof(TableEntry) == 32);
-
 /// What a face looks like without a material: clay, so that shape speaks; white where vertex colours speak.
 Material plain_material(const Mesh& mesh) {
   Material material;
@@ -138,8 +128,10 @@ class PictureArray {
   std::vector<Source> sources_;
 };
 
-TableEntry table_entry(const Material& material) {
-  TableEntry entry;
+}  // namespace
+
+MaterialTable::Entry MaterialTable::entry_of(const Material& material) {
+  Entry entry;
   entry.base_color = Vec3(material.base_color);
   entry.metallic = material.metallic;
   entry.roughness = material.roughness;
@@ -147,25 +139,33 @@ TableEntry table_entry(const Material& material) {
   return entry;
 }
 
-}  // namespace
+void MaterialTable::set_single(const gl::Program& program) const {
+  program.set("single_material.base_color", first_entry_.base_color);
+  program.set("single_material.metallic", first_entry_.metallic);
+  program.set("single_material.roughness", first_entry_.roughness);
+  program.set("single_material.base_color_layer", first_entry_.base_color_layer);
+  program.set("single_material.normal_layer", first_entry_.normal_layer);
+  program.set("single_material.normal_scale", first_entry_.normal_scale);
+}
 
 Result<MaterialTable> MaterialTable::create(std::span<const Mesh* const> meshes) try {
   gl::take_out_of_memory();
   MaterialTable table;
-  std::vector<TableEntry> entries;
+  std::vector<Entry> entries;
   PictureArray base_colors(Channels::kSrgb, "base colour"), normals(Channels::kLinear, "normal");
   for (const Mesh* const mesh : meshes) {
     table.first_.push_back(static_cast<std::uint32_t>(entries.size()));
-    if (mesh->materials.empty()) entries.push_back(table_entry(plain_material(*mesh)));
+    if (mesh->materials.empty()) entries.push_back(entry_of(plain_material(*mesh)));
     for (const Material& material : mesh->materials) {
-      TableEntry& entry = entries.emplace_back(table_entry(material));
+      Entry& entry = entries.emplace_back(entry_of(material));
       if (mesh->uvs.empty()) continue;
       entry.base_color_layer = base_colors.add(material.base_color_image, material);
       entry.normal_layer = normals.add(material.normal_image, material);
     }
   }
   table.count_ = entries.size();
-  table.table_ = gl::make_buffer_of(std::span<const TableEntry>(entries));
+  if (!entries.empty()) table.first_entry_ = entries.front();
+  table.table_ = gl::make_buffer_of(std::span<const Entry>(entries));
   auto base_color_array = base_colors.upload();
   if (!base_color_array) return tl::unexpected(base_color_array.error());
   table.base_colors_ = std::move(*base_color_array);

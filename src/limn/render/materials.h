@@ -7,6 +7,7 @@
 
 #include "limn/base/result.h"
 #include "limn/gl/objects.h"
+#include "limn/gl/program.h"
 #include "limn/mesh/mesh.h"
 
 namespace limn {
@@ -36,7 +37,23 @@ class MaterialTable {
   /// Makes it the table of all programs, until another is bound: storage buffer binding 7, texture units 14 and 15.
   void bind() const;
 
+  /// For a program made with SINGLE_MATERIAL: its one material is the table's first.
+  void set_single(const gl::Program& program) const;
+
  private:
+  /// As the shaders read it.
+  struct Entry {
+    Vec3 base_color{0.8f};
+    float metallic = 0.0f;
+    float roughness = 0.6f;
+    std::int32_t base_color_layer = -1;
+    std::int32_t normal_layer = -1;
+    float normal_scale = 1.0f;
+  };
+  static_assert(sizeof(Entry) == 32);
+  static Entry entry_of(const Material& material);
+
+  Entry first_entry_;
   std::vector<std::uint32_t> first_;
   std::size_t count_ = 0;
   gl::Buffer table_;

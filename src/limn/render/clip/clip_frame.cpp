@@ -9,6 +9,8 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "limn/base/parallel.h"
+
 namespace limn {
 namespace {
 
@@ -25,10 +27,20 @@ std::span<const std::byte> bytes_of(const T& values) {
   return std::as_bytes(std::span(values.data(), values.size()));
 }
 
-void set_place(const gl::Program& program, const Mat4& to_world) {
+std::array<Vec4, 3> rows_of(const Mat4& to_world) {
   const Mat4 rows = glm::transpose(to_world);
-  const Vec4 three[3] = {rows[0], rows[1], rows[2]};
-  program.set("to_world_rows[0]", std::span<const Vec4>(three));
+  return {rows[0], rows[1], rows[2]};
+}
+
+void set_place(const gl::Program& program, const Mat4& to_world) {
+  program.set("to_world_rows[0]", std::span<const Vec4>(rows_of(to_world)));
+}
+
+Vec3 linear(const Vec3& srgb) {
+  Vec3 result;
+  for (int c = 0; c < 3; ++c)
+    result[c] = srgb[c] <= 0.04045f ? srgb[c] / 12.92f : std::pow((srgb[c] + 0.055f) / 1.055f, 2.4f);
+  return result;
 }
 
 }  // namespace
@@ -43,6 +55,9 @@ Result<ClipFrame> ClipFrame::create(gl::Context& context, const HullStage& stage
   const auto original = context.program({"clip_surface.vert.glsl", "", "face.frag.glsl", {}});
   if (!original) return tl::unexpected(original.error());
   frame.original_ = *original;
+  auto matte = ClipMatte::create(context);
+  if (!matte) return tl::unexpected(matte.error());
+  frame.matte_ = std::make_unique<ClipMatte>(std::move(*matte));
   glGetIntegerv(GL_SUBPIXEL_BITS, &frame.subpixel_bits_);
   frame.subpixel_bits_ = std::max(frame.subpixel_bits_, 4);
   return frame;
@@ -59,9 +74,18 @@ void ClipFrame::begin(const RenderTargets& targets, const Camera& camera, const 
   camera_buffer_.bind();
   targets.begin_faces();
   counted_.clear();
+  if (!has_lines()) return;
+  const Vec4 background(linear(options.background), 1.0f);
+  glClearBufferfv(GL_COLOR, 0, &background.x);
 }
 
 void ClipFrame::end() {
+  if (has_lines()) {  // what was a matte is full again
+    const GLfloat opaque[4] = {1, 1, 1, 1};
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+    glClearBufferfv(GL_COLOR, 0, opaque);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
   targets_ = nullptr;
 }
 
@@ -96,7 +120,7 @@ ClipFrame::Box ClipFrame::box_of(const Bounds& bounds, const Placed& placed) con
     low = glm::min(low, window);
     high = glm::max(high, window);
   }
-  const float margin = 2.0f + (options_.antialias == ClipAntialias::kLines ? options_.line_width_px : 0.0f);
+  const float margin = 2.0f + (has_lines() ? options_.line_width_px : 0.0f);
   low = glm::clamp(low - margin, Vec2(0.0f), camera_.size_px);
   high = glm::clamp(high + margin, Vec2(0.0f), camera_.size_px);
   Box box;
@@ -126,30 +150,43 @@ float ClipFrame::vertex_error_px() const {
 }
 
 void ClipFrame::find_silhouette(ClipLevel& level, const Placed& placed, ClipDrawn& drawn) {
+  // Two things at once: the silhouette's loops, and the faces seen edge on.
+  parallel_for(options_.exact ? 2 : 1, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i == 0) {
+        find_loops(level, placed, drawn);
+      } else {
+        find_edge_on(level, placed);
+      }
+    }
+  });
+  drawn.silhouette_edges = loops_.edge_count;
+  drawn.stencil_triangles = loops_.triangle_count();
+  drawn.edge_on_faces = edge_on_.size() / 3;
+}
+
+void ClipFrame::find_loops(ClipLevel& level, const Placed& placed, ClipDrawn& drawn) {
   const Clock::time_point begun = Clock::now();
   const std::span<const EdgeId> edges = level.extractor.find(placed.eye, scratch_);
   drawn.extraction_ms = ms_since(begun);
   const Clock::time_point found = Clock::now();
   level.loops.build(edges, placed.eye, loops_);
-  edge_on_.clear();
-  if (options_.exact) {
-    const float diagonal = 0.5f * camera_.pixel_size * glm::length(camera_.size_px);
-    PictureScale scale;
-    scale.eye = placed.eye;
-    scale.forward = placed.forward;
-    scale.right = placed.right;
-    scale.up = placed.up;
-    scale.pixels_per_unit = placed.eye.orthographic ? placed.scale / camera_.pixel_size : 1.0f / camera_.pixel_size;
-    scale.widest_cosine = placed.eye.orthographic ? 1.0f : 1.0f / std::sqrt(1.0f + diagonal * diagonal);
-    scale.vertex_error_px = vertex_error_px();
-    if (targets_->samples() == 1) scale.axis_px = 0.5f * camera_.size_px;
-    scale.origin = placed.origin;
-    level.edge_on.find(scale, edge_on_);
-  }
   drawn.loops_ms = ms_since(found);
-  drawn.silhouette_edges = loops_.edge_count;
-  drawn.stencil_triangles = loops_.triangle_count();
-  drawn.edge_on_faces = edge_on_.size() / 3;
+}
+
+void ClipFrame::find_edge_on(const ClipLevel& level, const Placed& placed) {
+  const float diagonal = 0.5f * camera_.pixel_size * glm::length(camera_.size_px);
+  PictureScale scale;
+  scale.eye = placed.eye;
+  scale.forward = placed.forward;
+  scale.right = placed.right;
+  scale.up = placed.up;
+  scale.pixels_per_unit = placed.eye.orthographic ? placed.scale / camera_.pixel_size : 1.0f / camera_.pixel_size;
+  scale.widest_cosine = placed.eye.orthographic ? 1.0f : 1.0f / std::sqrt(1.0f + diagonal * diagonal);
+  scale.vertex_error_px = vertex_error_px();
+  if (targets_->samples() == 1) scale.axis_px = 0.5f * camera_.size_px;
+  scale.origin = placed.origin;
+  level.edge_on.find(scale, edge_on_);
 }
 
 void ClipFrame::find_rim(const ClipModel& model, const Placed& placed) {
@@ -160,27 +197,26 @@ void ClipFrame::find_rim(const ClipModel& model, const Placed& placed) {
   view.forward = placed.forward;
   view.unit_px = placed.eye.orthographic ? camera_.pixel_size / placed.scale : camera_.pixel_size;
   view.half_width_px = kRimHalfWidth_px;
-  if (options_.antialias == ClipAntialias::kLines) view.half_width_px += 0.5f * options_.line_width_px + 0.5f;
+  if (has_lines()) view.half_width_px += 0.5f * options_.line_width_px + 0.5f;
   rim_.clear();
   model.rim_.append(view, rim_);
 }
 
-Result<void> ClipFrame::stream(const ClipModel& model, std::size_t& loops_at, std::size_t& corners_at,
-                               std::size_t& rim_at) {
-  const auto loops = bytes_of(loops_.points), corners = bytes_of(loops_.corners), edge_on = bytes_of(edge_on_),
-             rim = bytes_of(rim_);
-  constexpr std::size_t kPadding = 64;
-  if (auto begun = stream_.begin(loops.size() + corners.size() + edge_on.size() + rim.size() + kPadding); !begun)
-    return begun;
+Result<ClipFrame::Streamed> ClipFrame::stream(const ClipModel& model) {
   // Faces seen edge on lie behind the loops' points, so that one binding serves both.
   loops_.points.insert(loops_.points.end(), edge_on_.begin(), edge_on_.end());
-  loops_at = stream_.write(bytes_of(loops_.points));
-  corners_at = stream_.write(corners);
-  rim_at = stream_.write(rim);
-  glVertexArrayVertexBuffer(model.loop_array_.id(), 0, stream_.id(), static_cast<GLintptr>(loops_at), sizeof(Vec3));
+  const auto points = bytes_of(loops_.points), corners = bytes_of(loops_.corners), segments = bytes_of(segments_),
+             rim = bytes_of(rim_);
+  constexpr std::size_t kPadding = 64;
+  if (auto begun = stream_.begin(points.size() + corners.size() + segments.size() + rim.size() + kPadding); !begun)
+    return tl::unexpected(begun.error());
+  const auto points_at = static_cast<GLintptr>(stream_.write(points));
+  const Streamed streamed{stream_.write(corners), stream_.write(segments)};
+  const auto rim_at = static_cast<GLintptr>(stream_.write(rim));
+  glVertexArrayVertexBuffer(model.loop_array_.id(), 0, stream_.id(), points_at, sizeof(Vec3));
   glVertexArrayElementBuffer(model.loop_array_.id(), stream_.id());
-  glVertexArrayVertexBuffer(model.rim_array_.id(), 0, stream_.id(), static_cast<GLintptr>(rim_at), sizeof(HullVertex));
-  return {};
+  glVertexArrayVertexBuffer(model.rim_array_.id(), 0, stream_.id(), rim_at, sizeof(HullVertex));
+  return streamed;
 }
 
 void ClipFrame::begin_counting(const Placed& placed) {
@@ -188,19 +224,18 @@ void ClipFrame::begin_counting(const Placed& placed) {
   set_place(*mask_, placed.to_world);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glDisable(GL_DEPTH_TEST);
-  glEnable(GL_DEPTH_CLAMP);  // nothing is lost in front of the near plane
+  glEnable(GL_DEPTH_CLAMP);  // nothing is lost in front of the near plane or behind the far one
   glEnable(GL_STENCIL_TEST);
-  glStencilMask(0xff);
+  glStencilMask(has_lines() ? ClipMatte::kCountBits : 0xff);
   glStencilFunc(GL_ALWAYS, 0, 0xff);
 }
 
-void ClipFrame::count_loops(const ClipModel& model, std::size_t loops_at, std::size_t corners_at) {
-  (void)loops_at;
+void ClipFrame::count_loops(const ClipModel& model, const Streamed& streamed) {
   glBindVertexArray(model.loop_array_.id());
   glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_INCR_WRAP);
   glStencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(loops_.corners.size()), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(corners_at));
+                 reinterpret_cast<const void*>(streamed.corners));
   if (edge_on_.empty()) return;
   glStencilOp(GL_KEEP, GL_KEEP, GL_INCR_WRAP);
   glDrawArrays(GL_TRIANGLES, static_cast<GLint>(loops_.points.size() - edge_on_.size()),
@@ -215,21 +250,22 @@ void ClipFrame::count_faces(const ClipLevel& level) {
 }
 
 Result<const gl::Program*> ClipFrame::hull_program(const ClipModel& model) {
+  const bool single = model.materials_->size() == 1;
   const unsigned variant =
-      (model.normals_ ? 1u : 0u) | (model.colors_ ? 2u : 0u) | (model.displacement_ ? 4u : 0u);
+      (model.normals_ ? 1u : 0u) | (model.colors_ ? 2u : 0u) | (model.displacement_ ? 4u : 0u) | (single ? 8u : 0u);
   if (hulls_[variant] != nullptr) return hulls_[variant];
   std::vector<std::string> defines = stage_.defines;
   if (model.normals_) defines.emplace_back("OBJECT_NORMALS 1");
   if (model.colors_) defines.emplace_back("DETAIL_COLORS 1");
   if (model.displacement_) defines.emplace_back("DISPLACEMENT 1");
+  if (single) defines.emplace_back("SINGLE_MATERIAL 1");
   const auto program = context_->program({"clip_surface.vert.glsl", "", stage_.fragment, defines});
   if (!program) return tl::unexpected(program.error());
   hulls_[variant] = *program;
   return hulls_[variant];
 }
 
-Result<void> ClipFrame::draw_hull(const ClipModel& model, const Placed& placed, std::size_t rim_at) {
-  (void)rim_at;
+Result<void> ClipFrame::draw_hull(const ClipModel& model, const Placed& placed) {
   const auto found = hull_program(model);
   if (!found) return tl::unexpected(found.error());
   const gl::Program& program = **found;
@@ -237,13 +273,17 @@ Result<void> ClipFrame::draw_hull(const ClipModel& model, const Placed& placed, 
   set_place(program, placed.to_world);
   program.set("displacement_range", Vec2(model.displacement_low_, model.displacement_high_));
   model.materials_->bind();
+  model.materials_->set_single(program);
   if (model.normals_) glBindTextureUnit(11, model.normals_.id());
   if (model.colors_) glBindTextureUnit(12, model.colors_.id());
   if (model.displacement_) glBindTextureUnit(13, model.displacement_.id());
   if (stage_.prepare) stage_.prepare(program, model);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, has_lines() ? GL_FALSE : GL_TRUE);
+  if (has_lines()) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA);
+  }
   glEnable(GL_DEPTH_TEST);
-  glDisable(GL_DEPTH_CLAMP);
   glStencilFunc(GL_NOTEQUAL, 0, 0xff);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   glStencilMask(0);
@@ -277,11 +317,14 @@ Result<void> ClipFrame::draw_clipped(ClipModel& model, const Placed& placed, Cli
   ClipLevel& level = *model.levels_[drawn.level];
   loops_.points.clear();
   loops_.corners.clear();
+  loops_.ends.clear();
   edge_on_.clear();
   if (drawn.place == EyePlace::kOutside) find_silhouette(level, placed, drawn);
   find_rim(model, placed);
-  std::size_t loops_at = 0, corners_at = 0, rim_at = 0;
-  if (auto streamed = stream(model, loops_at, corners_at, rim_at); !streamed) return streamed;
+  segments_.clear();
+  if (has_lines()) segments_of(loops_, segments_);
+  const auto streamed = stream(model);
+  if (!streamed) return tl::unexpected(streamed.error());
   glEnable(GL_SCISSOR_TEST);
   glScissor(box.x, box.y, box.width, box.height);
   const auto meets = [&](const Box& other) {
@@ -289,20 +332,26 @@ Result<void> ClipFrame::draw_clipped(ClipModel& model, const Placed& placed, Cli
            other.y < box.y + box.height;
   };
   const Clock::time_point begun = Clock::now();
-  begin_counting(placed);
+  glStencilMask(0xff);
   if (std::any_of(counted_.begin(), counted_.end(), meets)) glClear(GL_STENCIL_BUFFER_BIT);
   counted_.push_back(box);
+  if (has_lines()) {
+    matte_->draw_lines(stream_.id(), streamed->segments, segments_.size(), rows_of(placed.to_world),
+                       options_.line_width_px);
+  }
+  begin_counting(placed);
   if (drawn.place == EyePlace::kOutside) {
-    count_loops(model, loops_at, corners_at);
+    count_loops(model, *streamed);
   } else {
     count_faces(level);
   }
+  if (has_lines()) matte_->transfer();
   if (options_.time_stages) {
     glFinish();
     drawn.stencil_ms = ms_since(begun);
   }
   const Clock::time_point counted = Clock::now();
-  if (auto hull = draw_hull(model, placed, rim_at); !hull) return hull;
+  if (auto hull = draw_hull(model, placed); !hull) return hull;
   stream_.end();
   if (options_.time_stages) {
     glFinish();
@@ -324,6 +373,7 @@ Result<ClipDrawn> ClipFrame::draw(ClipModel& model, const Mat4& to_world) {
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_STENCIL_TEST);
   glDisable(GL_DEPTH_CLAMP);
+  glDisable(GL_BLEND);
   glStencilMask(0xff);
   glEnable(GL_DEPTH_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

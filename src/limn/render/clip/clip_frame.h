@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limn/render/camera_block.h"
+#include "limn/render/clip/clip_matte.h"
 #include "limn/render/clip/clip_model.h"
 #include "limn/render/clip/stream_buffer.h"
 #include "limn/render/targets.h"
@@ -32,6 +33,8 @@ struct ClipDrawOptions {
   /// Also draw faces that the rasterizer's grid may turn over, without which a pixel of thousands of pictures differs.
   bool exact = true;
   float line_width_px = 1.0f;  ///< of the lines that smooth outlines, > 0
+  /// sRGB, what the picture is cleared to with kLines, opaque: the alpha channel serves as each model's matte in turn.
+  Vec3 background{1, 1, 1};
   /// Wait for the device after each stage, so that ClipDrawn tells their times. Slows frames down.
   bool time_stages = false;
 };
@@ -41,8 +44,8 @@ struct ClipDrawn {
   EyePlace place = EyePlace::kOutside;
   std::size_t level = 0;
   std::size_t silhouette_edges = 0, stencil_triangles = 0, edge_on_faces = 0;
-  double extraction_ms = 0;  ///< finding the silhouette, on the CPU
-  double loops_ms = 0;       ///< stringing it into loops and triangles, and finding faces seen edge on
+  double extraction_ms = 0;            ///< finding the silhouette, on the CPU
+  double loops_ms = 0;                 ///< stringing it into loops and triangles
   double stencil_ms = 0, hull_ms = 0;  ///< with time_stages: until the device was done
 };
 
@@ -89,22 +92,30 @@ class ClipFrame {
   Box box_of(const Bounds& bounds, const Placed& placed) const;
   std::size_t choose_level(const ClipModel& model, const Placed& placed) const;
   void find_silhouette(ClipLevel& level, const Placed& placed, ClipDrawn& drawn);
+  void find_loops(ClipLevel& level, const Placed& placed, ClipDrawn& drawn);
+  void find_edge_on(const ClipLevel& level, const Placed& placed);
   float vertex_error_px() const;
   void find_rim(const ClipModel& model, const Placed& placed);
-  Result<void> stream(const ClipModel& model, std::size_t& loops_at, std::size_t& corners_at, std::size_t& rim_at);
+  /// Where in the stream they lie.
+  struct Streamed {
+    std::size_t corners = 0, segments = 0;
+  };
+  Result<Streamed> stream(const ClipModel& model);
   Result<void> draw_clipped(ClipModel& model, const Placed& placed, ClipDrawn& drawn);
   void begin_counting(const Placed& placed);
-  void count_loops(const ClipModel& model, std::size_t loops_at, std::size_t corners_at);
+  void count_loops(const ClipModel& model, const Streamed& streamed);
+  bool has_lines() const { return options_.antialias == ClipAntialias::kLines; }
   void count_faces(const ClipLevel& level);
-  Result<void> draw_hull(const ClipModel& model, const Placed& placed, std::size_t rim_at);
+  Result<void> draw_hull(const ClipModel& model, const Placed& placed);
   void draw_original(ClipModel& model, const Placed& placed);
   Result<const gl::Program*> hull_program(const ClipModel& model);
 
   gl::Context* context_;
   HullStage stage_;
+  std::unique_ptr<ClipMatte> matte_;
   const gl::Program* mask_ = nullptr;
   const gl::Program* original_ = nullptr;
-  std::array<const gl::Program*, 8> hulls_{};  ///< by which maps a model has
+  std::array<const gl::Program*, 16> hulls_{};  ///< by which maps a model has, and whether several materials
   CameraBuffer camera_buffer_;
   CameraBlock camera_;
   float far_distance_ = 0;
@@ -117,6 +128,7 @@ class ClipFrame {
   StencilLoops loops_;
   LineVector<Vec3> edge_on_;
   std::vector<HullVertex> rim_;
+  LineVector<MatteSegment> segments_;
 };
 
 }  // namespace limn

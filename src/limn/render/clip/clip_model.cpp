@@ -9,6 +9,7 @@
 
 #include "limn/mesh/normals.h"
 #include "limn/render/picture.h"
+#include "limn/silhouette/search/leaf_partition.h"
 
 namespace limn {
 namespace {
@@ -118,9 +119,11 @@ Result<void> ClipModel::add_level(const SilhouetteLevel& level) {
   const Topology topology = build_topology(mesh);
   if (!is_closed(topology)) return not_closed(name + " of the asset");
   std::vector<Plane> planes = face_planes(mesh);
-  SilhouetteExtractor extractor(mesh, topology, planes);
+  const std::optional<std::vector<LeafCluster>> stored = partition_clusters(level.leaf_of_edge, topology);
+  const std::vector<LeafCluster> leaves = stored ? *stored : leaf_clusters(mesh, topology, planes);
+  SilhouetteExtractor extractor(mesh, topology, planes, SearchMethod::kAuto, leaves);
   StencilLoopBuilder loops(mesh, topology, planes);
-  EdgeOnFaces edge_on(mesh, topology, planes);
+  EdgeOnFaces edge_on(mesh, leaves, planes);
   // Moving a vector keeps its memory, which the extractor refers to.
   auto made = std::make_unique<ClipLevel>(
       ClipLevel{std::move(planes), std::move(extractor), std::move(loops), std::move(edge_on), 0, {}, {}, {}, 0});
@@ -164,7 +167,7 @@ Result<void> ClipModel::add_hull(const ClipAsset& asset) {
   attach_surface(rim_array_);
   glVertexArrayElementBuffer(rim_array_.id(), rim_indices_.id());
   rim_ = HullRim(topology, face_planes(hull), corners);
-  locator_ = EyeLocator(hull);
+  locator_ = EyeLocator(hull, bounds_);
   auto materials = MaterialTable::create(asset.hull);
   if (!materials) return tl::unexpected(materials.error());
   materials_ = std::make_unique<MaterialTable>(std::move(*materials));

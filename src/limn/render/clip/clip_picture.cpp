@@ -17,6 +17,10 @@ Result<void> check_clip(const RenderOptions& options, const ClipDrawOptions& cli
   if (clip.antialias != ClipAntialias::kLines) return {};
   if (options.samples != 1)
     return fail(ErrorCode::kInvalidArgument, "outlines smoothed by lines in a picture of several samples", "use 1");
+  if (options.background.w < 1.0f) {
+    return fail(ErrorCode::kInvalidArgument, "outlines smoothed by lines on a background that is not opaque",
+                "use samples, or an opaque background");
+  }
   if (!(clip.line_width_px > 0.0f)) return fail(ErrorCode::kInvalidArgument, "a line width that is not above 0");
   return {};
 }
@@ -51,7 +55,9 @@ Result<ClipPicture> render_clipped(gl::Context& context, std::span<const ClipIns
   picture.drawn.resize(instances.size());
   gl::finish();
   const auto begun = std::chrono::steady_clock::now();
-  frame->begin(*targets, seen, clip);
+  ClipDrawOptions drawing = clip;
+  drawing.background = Vec3(options.background);
+  frame->begin(*targets, seen, drawing);
   for (const std::size_t i : farthest_first(instances, seen)) {
     auto drawn = frame->draw(*instances[i].model, instances[i].to_world);
     if (!drawn) return tl::unexpected(drawn.error());

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "limn/base/bounds.h"
-#include "limn/silhouette/search/edge_clusters.h"
 
 namespace limn {
 namespace {
@@ -20,14 +19,14 @@ double perimeter_of(const std::array<DVec3, 3>& p) {
 }
 
 /// Every face once, those together that lie together and look the same way.
-std::vector<FaceId> coherent_order(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes) {
+std::vector<FaceId> coherent_order(const Mesh& mesh, std::span<const LeafCluster> leaves) {
   std::vector<FaceId> order;
   std::vector<bool> taken(mesh.face_count(), false);
   const auto take = [&](FaceId face) {
     if (!taken[face]) order.push_back(face);
     taken[face] = true;
   };
-  for (const LeafCluster& cluster : leaf_clusters(mesh, topology, planes)) {
+  for (const LeafCluster& cluster : leaves) {
     for (std::size_t i = 0; i < cluster.face_count; ++i)
       take(cluster.faces[i]);
   }
@@ -76,7 +75,7 @@ struct EdgeOnFaces::Query {
   float bound;   ///< of (|distance| - slack) times thickness, above which a face keeps its side
 };
 
-EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, const Topology& topology, std::span<const Plane> planes) {
+EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, std::span<const LeafCluster> leaves, std::span<const Plane> planes) {
   const std::size_t count = mesh.face_count();
   const Bounds bounds = face_bounds(mesh);
   center_ = bounds.empty() ? Vec3(0) : bounds.center();
@@ -97,7 +96,7 @@ EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, const Topology& topology, std::span<c
   // One bound holds for all faces but the smallest, which are looked at one by one, in groups of their own.
   least_perimeter_ = static_cast<float>(count > 0 ? 0.1 * sum / static_cast<double>(count) : 0.0);
   std::vector<FaceId> regular, small;
-  for (const FaceId face : coherent_order(mesh, topology, planes)) {
+  for (const FaceId face : coherent_order(mesh, leaves)) {
     const bool is_small = perimeters[face] < double{least_perimeter_};
     if (is_small) thickness[face] = 0.0f;
     (is_small ? small : regular).push_back(face);

@@ -43,8 +43,8 @@ std::vector<Vec4> near_region(const CameraBlock& camera) {
 
 }  // namespace
 
-EyeLocator::EyeLocator(const Mesh& surface)
-    : positions_(surface.positions), faces_(surface.faces), directions_(even_directions()) {
+EyeLocator::EyeLocator(const Mesh& surface, const Bounds& model)
+    : positions_(surface.positions), faces_(surface.faces), directions_(even_directions()), model_(model) {
   const Bounds bounds = face_bounds(surface);
   center_ = bounds.empty() ? Vec3(0) : bounds.center();
   for (const Triangle& face : faces_) {
@@ -77,11 +77,20 @@ bool EyeLocator::inside(const Vec3& eye) const {
   return std::abs(sum) > 2.0 * 3.14159265358979;  // half a turn of 4 pi
 }
 
+/// What of the hull alone is too near or too far does not matter: depths are clamped, not cut.
+bool EyeLocator::model_is_between(const CameraBlock& camera, float far_distance, const Mat4& model_to_eye) const {
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p((corner & 1) != 0 ? model_.high.x : model_.low.x, (corner & 2) != 0 ? model_.high.y : model_.low.y,
+                 (corner & 4) != 0 ? model_.high.z : model_.low.z);
+    const float depth = -(model_to_eye * Vec4(p, 1.0f)).z;
+    if (!(depth > camera.near_distance * 1.00001f && depth < far_distance * 0.99999f)) return false;
+  }
+  return true;
+}
+
 bool EyeLocator::is_cut(const CameraBlock& camera, float far_distance, const Mat4& model_to_eye) const {
-  const float size = glm::length(Vec3(model_to_eye[0]));
-  const Vec3 middle = Vec3(model_to_eye * Vec4(center_, 1.0f));
-  const float reach = size * radius_ * 1.0001f;
-  if (-middle.z - reach > camera.near_distance && -middle.z + reach < far_distance) return false;
+  if (model_is_between(camera, far_distance, model_to_eye)) return false;
+  const float reach = glm::length(Vec3(model_to_eye[0])) * radius_ * 1.0001f;
   const std::vector<Vec4> planes = near_region(camera);
   for (const Triangle& face : faces_) {
     std::array<Vec4, 3> p;

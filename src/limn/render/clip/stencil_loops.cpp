@@ -97,6 +97,7 @@ void StencilLoopBuilder::add_crowded(const Eye& eye) {
 void StencilLoopBuilder::build(std::span<const EdgeId> edges, const Eye& eye, StencilLoops& loops) {
   loops.points.clear();
   loops.corners.clear();
+  loops.ends.clear();
   step_count_ = 0;
   if (steps_.size() < edges.size() + crowded_.size()) steps_.resize(2 * edges.size() + crowded_.size());
   // Edges lie all over memory, which takes longer to answer than they take to be looked at: ask ahead.
@@ -137,6 +138,7 @@ void StencilLoopBuilder::follow(StencilLoops& loops) {
         points[count++] = positions_[v];
         v = step.to;
       } while (v != start);
+      loops.ends.push_back(count);
       append_loop_triangles(first, count - first, loops.corners);
     }
   }

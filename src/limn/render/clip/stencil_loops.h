@@ -15,6 +15,7 @@ namespace limn {
 struct StencilLoops {
   LineVector<Vec3> points;           ///< loop after loop, each point where an edge of the silhouette starts
   LineVector<std::uint32_t> corners;  ///< indices into points, three a triangle
+  LineVector<std::uint32_t> ends;     ///< a loop: one past its last point
   std::size_t edge_count = 0;         ///< edges of the silhouette
 
   std::size_t triangle_count() const { return corners.size() / 3; }
