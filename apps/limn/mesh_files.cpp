@@ -82,7 +82,10 @@ Result<LoadedMesh> load(Session& session, const InputOptions& options) {
   const std::string name = options.path == "-" ? "standard input" : options.path;
   LoadedMesh loaded{std::move(read->mesh), read->format, std::move(read->notes), {}, {}};
   loaded.asset = load_asset(session, options, loaded.format);
-  if (loaded.asset) std::erase(loaded.notes, "extensions left out: LIMN_silhouette");  // nothing was
+  if (loaded.asset) {  // nothing is lost: the extension was read, and tangents follow from the rest
+    std::erase(loaded.notes, "extensions left out: LIMN_silhouette");
+    std::erase(loaded.notes, "attributes left out: TANGENT");
+  }
   for (const std::string& note : loaded.notes)
     session.say(fmt::format("{}: {}", name, note));
   if (options.repair) {

@@ -91,6 +91,31 @@ TEST(AssetFile, KeepsLevelsOfAwkwardMeshes) {
   EXPECT_GT(count, 10u);
 }
 
+TEST(AssetFile, KeepsSurfacesThatTakeNextToNothing) {
+  // A flat two-sided grid with whole coordinates: so regular that it is the padding that says how large it is.
+  Mesh grid;
+  constexpr VertexId kSide = 300;
+  for (VertexId y = 0; y < kSide; ++y) {
+    for (VertexId x = 0; x < kSide; ++x)
+      grid.positions.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0f);
+  }
+  for (VertexId y = 0; y + 1 < kSide; ++y) {
+    for (VertexId x = 0; x + 1 < kSide; ++x) {
+      const VertexId v = y * kSide + x;
+      grid.faces.push_back({v, v + 1, v + kSide});
+      grid.faces.push_back({v + 1, v + kSide + 1, v + kSide});
+    }
+  }
+  ClipAsset asset = stand_in_asset(80);
+  asset.maps = {};
+  asset.levels = {{asset::order_for_storage(grid), 0.0f, {}}};
+  const std::string file = written(asset);
+  EXPECT_LT(file.size(), grid.faces.size() / 6);
+  const Result<ClipAsset> again = read(file);
+  ASSERT_TRUE(again) << format_error(again.error());
+  EXPECT_TRUE(same_level(again->levels[0], asset.levels[0]));
+}
+
 TEST(AssetFile, SilhouettesThroughItEqualBruteForceOnTheOriginal) {
   const Mesh original = bumpy_sphere(5120);
   ClipAsset asset = stand_in_asset();

@@ -57,6 +57,32 @@ TEST(SurfaceDistance, IsFoundInsideFacesToo) {
   EXPECT_LE(distance.bound, 1.21);
 }
 
+TEST(SurfaceDistance, MissesNoSmallHole) {
+  // A sheet of cells with one missing under a large triangle, and another face that lies nearly as far off.
+  Mesh sheet, above;
+  constexpr int kCells = 20;
+  for (int y = 0; y <= kCells; ++y) {
+    for (int x = 0; x <= kCells; ++x)
+      sheet.positions.emplace_back(static_cast<float>(x) / kCells, static_cast<float>(y) / kCells, 0.0f);
+  }
+  for (int y = 0; y < kCells; ++y) {
+    for (int x = 0; x < kCells; ++x) {
+      const auto v = static_cast<VertexId>(y * (kCells + 1) + x);
+      if (x == 3 && y == 12) continue;
+      sheet.faces.push_back({v, v + 1, v + kCells + 2});
+      sheet.faces.push_back({v, v + kCells + 2, v + kCells + 1});
+    }
+  }
+  above.positions = {Vec3(0, 0, 0),
+                     Vec3(1, 0, 0),
+                     Vec3(0, 1, 0),
+                     Vec3(0.5f, 0.5f, 0.0205f),
+                     Vec3(0.6f, 0.5f, 0.0205f),
+                     Vec3(0.5f, 0.6f, 0.0205f)};
+  above.faces = {{0, 1, 2}, {3, 4, 5}};
+  EXPECT_GE(distance_from(above, tree_of(sheet)).bound, 0.025);  // from the middle of the hole to its rim
+}
+
 TEST(SurfaceDistance, BoundsEverySample) {
   for (const Shape shape : {Shape::kKnot, Shape::kAsteroid, Shape::kHoles3}) {
     const Mesh fine = *make_shape(shape, {.faces = 20000});
@@ -74,7 +100,7 @@ TEST(SurfaceDistance, OfASurfaceFromItselfEnds) {
   const Mesh mesh = bumpy_sphere(1280);
   const SurfaceDistance distance = distance_from(mesh, tree_of(mesh));
   EXPECT_LE(distance.reached, 1e-6);
-  EXPECT_LE(distance.bound, 0.02);  // pieces are that small when it ends
+  EXPECT_LE(distance.bound, 0.03);  // pieces are that small when it ends
 }
 
 TEST(SurfaceDistance, DoesNotDependOnThreads) {

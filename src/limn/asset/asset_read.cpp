@@ -114,7 +114,8 @@ class Reader {
   /// Parts may be named more than once: all that they unfold to must be in proportion to the file.
   std::size_t claim(const Field& field) {
     const std::uint64_t count = field.index();
-    if (count > asset::most_elements(bytes_.size()) - claimed_)
+    // Vertices and faces each.
+    if (count > 2 * asset::most_elements(bytes_.size()) - claimed_)
       refuse(field.path(), fmt::format("is {}, too many for a file of {} bytes", count, bytes_.size()),
              std::string(kAgain));
     claimed_ += static_cast<std::size_t>(count);

@@ -64,6 +64,7 @@ Mesh as_read_back(const Mesh& mesh) {
   settled.faces = std::move(vertices.faces);
   settled.normals.values = std::move(vertices.normals);
   settled.uvs.values = std::move(vertices.uvs);
+  settled.tangents.values = std::move(vertices.tangents);
   for (Vec2& uv : settled.uvs.values)
     uv.y = 1.0f - (1.0f - uv.y);
   settled.materials = mesh.materials;
@@ -75,8 +76,8 @@ Result<Mesh> dressed_hull(const BakedMaps& baked, const Mesh& original) {
   if (!mesh) return mesh;
   Mesh hull = as_read_back(*mesh);
   // Of several materials none is right everywhere: their colours are in the map.
-  if (original.materials.size() == 1 && !hull.materials.empty()) {
-    const Material& from = original.materials[0];
+  if (original.materials.size() <= 1 && !hull.materials.empty()) {
+    const Material from = original.materials.empty() ? Material{} : original.materials[0];
     if (baked.colors.empty()) hull.materials[0].base_color = from.base_color;
     hull.materials[0].metallic = from.metallic;
     hull.materials[0].roughness = from.roughness;

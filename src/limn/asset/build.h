@@ -47,11 +47,12 @@ struct BuiltClipAsset {
 /// Sander et al. 2000 do before run time; docs/asset.md.
 ///
 /// The first silhouette is that of the shell (hull/shell.h): the welded original, exactly, where it is closed; else
-/// with its boundaries closed, which the notes say. The hull comes as one value a vertex and as a file gives it back,
-/// so that an asset just built and one that was read draw the same pixels. A hull that cannot be brought down to
-/// `faces` is success: see HullReport::reached_target. Cost: about 8 µs a face of the original and 0.3 µs a texel, on
-/// one core. Same bits for any number of threads. Errors: kInvalidArgument; kUnsuitable where no closed surface can be
-/// made of the mesh; kCancelled.
+/// with its boundaries closed, which the notes say. The hull comes as one value a vertex and, but for its tangents, as
+/// a file gives it back, so that an asset just built and one that was read draw the same pixels. A hull that cannot be
+/// brought down to `faces` is success: see HullReport::reached_target.
+///
+/// Cost: about 15 µs a face of the original and 0.3 µs a texel, on one core. Same bits for any number of threads.
+/// Errors: kInvalidArgument; kUnsuitable where no closed surface can be made of the mesh; kCancelled.
 Result<BuiltClipAsset> build_clip_asset(const Mesh& original, const ClipOptions& options = {});
 
 }  // namespace limn

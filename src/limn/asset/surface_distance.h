@@ -20,8 +20,10 @@ struct SurfaceDistance {
 /// there to its farthest corner. Triangles that may lie more than a fifth beyond the largest distance known are cut
 /// into four, until none does; or until 32 a face were looked at, as happens where the surface lies on the reference
 /// nearly everywhere: the farthest are cut first, and the bound is as good as the pieces are small then.
-/// Where the surface encloses the reference, this is also how far its outline can lie from the reference's outline, from
-/// any viewpoint outside of both (docs/asset.md).
+///
+/// Where the surface encloses the reference, this is also how far its outline can lie from the reference's outline,
+/// from any viewpoint outside of both (docs/asset.md).
+///
 /// Cost: at most 32 nearest points a face, and 100,000; memory in proportion. Same result for any number of threads.
 /// \pre both have faces
 SurfaceDistance distance_from(const Mesh& surface, const bake_detail::FaceTree& reference);
