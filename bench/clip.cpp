@@ -54,6 +54,12 @@ std::string text_of(const ClipRow& row) {
   text += fmt::format("  speed-up {:.2f}, with 4 samples {:.2f}; lines add {:+.3f} ms, samples {:+.3f} ms\n",
                       row.original.median / row.clipped.median, row.msaa_original.median / row.msaa_clipped.median,
                       row.lines.median - row.clipped.median, row.msaa_clipped.median - row.clipped.median);
+  text += fmt::format(
+      "  processor time: original {:.3f}, simplified {:.3f}, clipped {:.3f} ({:.2f} times), lines {:.3f}; 4 samples "
+      "{:.3f} "
+      "and {:.3f} ms\n",
+      row.cpu_original, row.cpu_simplified, row.cpu_clipped, row.cpu_original / row.cpu_clipped, row.cpu_lines,
+      row.cpu_msaa_original, row.cpu_msaa_clipped);
   if (row.paper.total > 0) {
     text += fmt::format("  paper: original {}, extraction {}, stencil {}, hull {}, total {}: {} times; lines +{}\n",
                         row.paper.original, row.paper.extraction, row.paper.stencil, row.paper.coarse, row.paper.total,
@@ -78,6 +84,12 @@ nlohmann::ordered_json json_of(const ClipRow& row) {
           {"clipped_lines", spread(row.lines)},
           {"original_msaa", spread(row.msaa_original)},
           {"clipped_msaa", spread(row.msaa_clipped)},
+          {"original_cpu_ms", row.cpu_original},
+          {"simplified_cpu_ms", row.cpu_simplified},
+          {"clipped_cpu_ms", row.cpu_clipped},
+          {"clipped_lines_cpu_ms", row.cpu_lines},
+          {"original_msaa_cpu_ms", row.cpu_msaa_original},
+          {"clipped_msaa_cpu_ms", row.cpu_msaa_clipped},
           {"extraction_ms", row.extraction},
           {"loops_ms", row.loops},
           {"stencil_ms", row.stencil},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <epoxy/gl.h>
 
 #include "limn/base/random.h"
@@ -118,16 +119,19 @@ Result<ClipRow> measure_row(gl::Context& context, const Subject& subject, const 
       [&](const Camera& camera) { plain(*original, stage->plain_4, camera); },
       [&](const Camera& camera) { clipped(stage->stencil_4, camera, options); },
       [&](const Camera& camera) { clipped(stage->stencil, camera, timed); }};
-  std::vector<std::vector<double>> times(contestants.size()), stages(4), counts(3);
+  std::vector<std::vector<double>> times(contestants.size()), cpu_times(contestants.size()), stages(4), counts(3);
   const std::vector<Camera> cameras = cameras_of(subject.asset.bounds, settings);
   for (std::size_t view = 0; view < cameras.size(); ++view) {
     for (std::size_t c = 0; c < contestants.size(); ++c) {
       gl::finish();
       const Clock::time_point begun = Clock::now();
+      const std::clock_t cpu_begun = std::clock();
       contestants[c](cameras[view]);
       gl::finish();
       if (!state) return tl::unexpected(state.error());
-      if (view > 1) times[c].push_back(ms_since(begun));  // the first two views warm up
+      if (view <= 1) continue;  // the first two views warm up
+      times[c].push_back(ms_since(begun));
+      cpu_times[c].push_back(1e3 * static_cast<double>(std::clock() - cpu_begun) / CLOCKS_PER_SEC);
     }
     if (view <= 1) continue;
     const double ms[] = {drawn.extraction_ms, drawn.loops_ms, drawn.stencil_ms, drawn.hull_ms};
@@ -145,6 +149,10 @@ Result<ClipRow> measure_row(gl::Context& context, const Subject& subject, const 
                              &row.lines,    &row.msaa_original, &row.msaa_clipped};
   for (std::size_t i = 0; i < 6; ++i)
     *spreads[i] = spread_of(times[i]);
+  double* const cpu[] = {&row.cpu_original, &row.cpu_simplified,    &row.cpu_clipped,
+                         &row.cpu_lines,    &row.cpu_msaa_original, &row.cpu_msaa_clipped};
+  for (std::size_t i = 0; i < 6; ++i)
+    *cpu[i] = spread_of(cpu_times[i]).median;
   double* const medians[] = {&row.extraction, &row.loops, &row.stencil, &row.hull};
   for (std::size_t i = 0; i < 4; ++i)
     *medians[i] = spread_of(stages[i]).median;

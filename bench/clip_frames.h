@@ -43,6 +43,9 @@ struct ClipRow {
   std::string name;
   std::size_t faces = 0, hull_faces = 0;
   Spread original, simplified, clipped, lines, msaa_original, msaa_clipped;  ///< ms a frame
+  /// The same as processor time of all threads: for machines that others use as well.
+  double cpu_original = 0, cpu_simplified = 0, cpu_clipped = 0, cpu_lines = 0, cpu_msaa_original = 0,
+         cpu_msaa_clipped = 0;
   double extraction = 0, loops = 0, stencil = 0, hull = 0;  ///< medians of stages, waiting for the device between them
   double silhouette_edges = 0, stencil_triangles = 0, edge_on_faces = 0;
   PublishedRow paper;

@@ -4,6 +4,7 @@
 
 #include "limn/base/random.h"
 #include "limn/render/clip/clip_picture.h"
+#include "limn/render/gpu_mesh.h"
 
 #include "clip_bodies.h"
 
@@ -48,7 +49,11 @@ Mesh colored(Mesh mesh, const Vec3& color) {
   return mesh;
 }
 
-Mesh moved(Mesh mesh, const Mat4& to_world) {
+/// Its points and faces alone, moved.
+Mesh moved(const Mesh& original, const Mat4& to_world) {
+  Mesh mesh;
+  mesh.positions = original.positions;
+  mesh.faces = original.faces;
   for (Vec3& p : mesh.positions)
     p = Vec3(to_world * Vec4(p, 1.0f));
   return mesh;
@@ -80,7 +85,6 @@ TEST_F(ClipScene, TheNearerOfTwoModelsIsSeenWhateverTheOrder) {
   Mesh both = moved(test::shape(Shape::kIcosphere, 5120), near);
   const Image near_only = draw(both, scene_camera(), options);
   test::append(both, moved(test::shape(Shape::kIcosphere, 5120), far));
-  both.normals = {};
   EXPECT_LE(test::count_differing(first, draw(both, scene_camera(), options)), 2u);  // places rounded twice
   std::size_t hidden = 0;
   for (int y = 0; y < 256; ++y) {
@@ -101,10 +105,7 @@ TEST_F(ClipScene, OneModelManyTimesTurnedAndScaled) {
     place = glm::rotate(place, 1.3f * static_cast<float>(i), random.direction());
     place = glm::scale(place, Vec3(0.4f + 0.1f * static_cast<float>(i)));
     instances.push_back({&model, place});
-    Mesh copy = moved(knot, place);
-    copy.normals = {};
-    copy.uvs = {};
-    test::append(all, copy);
+    test::append(all, moved(knot, place));
   }
   const RenderOptions options = picture_options(300, 300, 1, kTransparent);
   const ClipPicture picture = clip(instances, scene_camera(), options);
@@ -151,7 +152,7 @@ TEST_F(ClipScene, OrdinaryGeometryHidesAndIsHidden) {
     }
   }
   EXPECT_GT(red, 1000u);
-  EXPECT_GT(blue, 10 * red / 10);
+  EXPECT_GT(blue, red);
 }
 
 /// With the displacement a hull far outside has the original's depth.

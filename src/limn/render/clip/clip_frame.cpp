@@ -9,8 +9,6 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
-#include "limn/base/parallel.h"
-
 namespace limn {
 namespace {
 
@@ -150,16 +148,9 @@ float ClipFrame::vertex_error_px() const {
 }
 
 void ClipFrame::find_silhouette(ClipLevel& level, const Placed& placed, ClipDrawn& drawn) {
-  // Two things at once: the silhouette's loops, and the faces seen edge on.
-  parallel_for(options_.exact ? 2 : 1, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i == 0) {
-        find_loops(level, placed, drawn);
-      } else {
-        find_edge_on(level, placed);
-      }
-    }
-  });
+  // One after the other: together they take less than another thread does to wake and to fall asleep again.
+  find_loops(level, placed, drawn);
+  if (options_.exact) find_edge_on(level, placed);
   drawn.silhouette_edges = loops_.edge_count;
   drawn.stencil_triangles = loops_.triangle_count();
   drawn.edge_on_faces = edge_on_.size() / 3;

@@ -11,7 +11,6 @@
 namespace limn {
 namespace {
 
-constexpr std::size_t kBatch = 16;  // groups tested at a time
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 double perimeter_of(const std::array<DVec3, 3>& p) {
@@ -70,9 +69,10 @@ bool between_samples(const std::array<glm::dvec2, 3>& p, const PictureScale& sca
 struct EdgeOnFaces::Query {
   const PictureScale* scale;
   Vec3 eye;
-  float offset;  ///< 1, or 0 for a direction
-  float slack;   ///< what rounding may add to a distance
-  float bound;   ///< of (|distance| - slack) times thickness, above which a face keeps its side
+  float offset;    ///< 1, or 0 for a direction
+  float slack;     ///< what rounding may add to a distance
+  float farthest;  ///< that anything of the mesh is from the eye; 1 for a direction
+  float bound;     ///< of (|distance| - slack) times thickness, above which a face keeps its side
 };
 
 EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, std::span<const LeafCluster> leaves, std::span<const Plane> planes) {
@@ -101,13 +101,44 @@ EdgeOnFaces::EdgeOnFaces(const Mesh& mesh, std::span<const LeafCluster> leaves, 
     if (is_small) thickness[face] = 0.0f;
     (is_small ? small : regular).push_back(face);
   }
-  for (const std::vector<FaceId>* faces : {&regular, &small}) {
-    for (std::size_t first = 0; first < faces->size(); first += kGroup)
-      add_group(mesh, std::span(*faces).subspan(first, std::min(kGroup, faces->size() - first)), planes, thickness);
+  regular.insert(regular.end(), small.begin(), small.end());
+  for (std::size_t first = 0; first < regular.size(); first += kGroup)
+    add_group(mesh, std::span(regular).subspan(first, std::min(kGroup, regular.size() - first)), planes, thickness);
+  for (std::size_t first = 0; first < regular.size(); first += kGroup * kGroup)
+    outer_bounds_.add(mesh, std::span(regular).subspan(first, std::min(kGroup * kGroup, regular.size() - first)),
+                      planes, thickness);
+  bounds_.pad();
+  outer_bounds_.pad();
+}
+
+void EdgeOnFaces::Bounding::pad() {
+  const std::size_t padded = (cx.size() + kGroup - 1) / kGroup * kGroup;
+  for (LineVector<float>* values : {&cx, &cy, &cz, &ax, &ay, &az, &spread, &offset, &thickness})
+    values->resize(padded, 0.0f);
+}
+
+void EdgeOnFaces::Bounding::add(const Mesh& mesh, std::span<const FaceId> faces, std::span<const Plane> planes,
+                                std::span<const float> thicknesses) {
+  DVec3 center(0), axis(0);
+  for (const FaceId face : faces) {
+    axis += DVec3(planes[face].nx, planes[face].ny, planes[face].nz);
+    center += DVec3(mesh.positions[mesh.faces[face][0]]);
   }
-  for (LineVector<float>* values : {&bounds_.cx, &bounds_.cy, &bounds_.cz, &bounds_.ax, &bounds_.ay, &bounds_.az,
-                                    &bounds_.spread, &bounds_.offset, &bounds_.thickness})
-    values->resize((groups_.size() + kBatch - 1) / kBatch * kBatch, 0.0f);
+  center /= static_cast<double>(faces.size());
+  axis = glm::length(axis) > 0 ? glm::normalize(axis) : DVec3(0);
+  double widest = 0, farthest = 0, thinnest = HUGE_VAL;
+  for (const FaceId face : faces) {
+    const DVec3 n(planes[face].nx, planes[face].ny, planes[face].nz);
+    widest = std::max(widest, glm::length(n - axis));
+    farthest = std::max(farthest, std::abs(glm::dot(n, center) + double{planes[face].d}));
+    thinnest = std::min(thinnest, double{thicknesses[face]});
+  }
+  const auto append = [](LineVector<float>& values, double value) { values.push_back(static_cast<float>(value)); };
+  append(cx, center.x), append(cy, center.y), append(cz, center.z);
+  append(ax, axis.x), append(ay, axis.y), append(az, axis.z);
+  append(spread, widest * 1.00001 + 1e-6);
+  append(offset, farthest * 1.00001);
+  append(thickness, thinnest);
 }
 
 void EdgeOnFaces::add_group(const Mesh& mesh, std::span<const FaceId> faces, std::span<const Plane> planes,
@@ -117,39 +148,20 @@ void EdgeOnFaces::add_group(const Mesh& mesh, std::span<const FaceId> faces, std
   group.count = static_cast<std::uint32_t>(faces.size());
   group.thickness.fill(kInfinite);
   group.d.fill(1.0f);  // beside any eye, where there is no face
-  DVec3 center(0), axis(0);
+  bounds_.add(mesh, faces, planes, thickness);
+  group.center = Vec3(bounds_.cx.back(), bounds_.cy.back(), bounds_.cz.back());
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const FaceId face = faces[i];
     const Plane& plane = planes[face];
     group.nx[i] = plane.nx, group.ny[i] = plane.ny, group.nz[i] = plane.nz, group.d[i] = plane.d;
     group.thickness[i] = thickness[face];
-    for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t c = 0; c < 3; ++c) {
       corners[i][c] = mesh.positions[mesh.faces[face][c]];
-    axis += DVec3(plane.nx, plane.ny, plane.nz);
-    center += DVec3(corners[i][0]);
-  }
-  center /= static_cast<double>(faces.size());
-  axis = glm::length(axis) > 0 ? glm::normalize(axis) : DVec3(0);
-  double spread = 0, offset = 0, thinnest = HUGE_VAL;
-  for (const FaceId face : faces) {
-    const DVec3 n(planes[face].nx, planes[face].ny, planes[face].nz);
-    spread = std::max(spread, glm::length(n - axis));
-    offset = std::max(offset, std::abs(glm::dot(n, center) + double{planes[face].d}));
-    thinnest = std::min(thinnest, double{thickness[face]});
-  }
-  group.center = Vec3(center);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    for (const Vec3& corner : corners[i])
-      group.radius = std::max(group.radius, 1.00001f * glm::length(corner - group.center));
+      group.radius = std::max(group.radius, 1.00001f * glm::length(corners[i][c] - group.center));
+    }
   }
   groups_.push_back(group);
   corners_.push_back(corners);
-  const auto add = [](LineVector<float>& values, double value) { values.push_back(static_cast<float>(value)); };
-  add(bounds_.cx, center.x), add(bounds_.cy, center.y), add(bounds_.cz, center.z);
-  add(bounds_.ax, axis.x), add(bounds_.ay, axis.y), add(bounds_.az, axis.z);
-  add(bounds_.spread, spread * 1.00001 + 1e-6);
-  add(bounds_.offset, offset);
-  add(bounds_.thickness, thinnest);
 }
 
 /// Faces within a ball keep their side where |n·x + d| times thickness is above it. Twice a face's area in the picture
@@ -215,30 +227,41 @@ void EdgeOnFaces::find(const PictureScale& scale, LineVector<Vec3>& points) cons
   query.offset = parallel ? 0.0f : 1.0f;
   const Vec3 size = glm::abs(query.eye);
   query.slack = 2e-6f * (size.x + size.y + size.z + query.offset * (farthest_ + radius_));
-  // A direction's distance from a plane has nothing of the place: the same sum without centre and offset.
-  const float placed = query.offset;
-  const float farthest = parallel ? 1.00001f : 1.00001f * (glm::length(query.eye - center_) + radius_);
-  for (std::size_t first = 0; first < groups_.size(); first += kBatch) {
-    std::array<float, kBatch> least;
-    for (std::size_t i = 0; i < kBatch; ++i) {
-      const std::size_t g = first + i;
-      const float x = query.eye.x - placed * bounds_.cx[g], y = query.eye.y - placed * bounds_.cy[g],
-                  z = query.eye.z - placed * bounds_.cz[g];
-      const float along = std::abs(bounds_.ax[g] * x + bounds_.ay[g] * y + bounds_.az[g] * z);
-      least[i] = (along - bounds_.spread[g] * farthest - placed * bounds_.offset[g] - query.slack) * bounds_.thickness[g];
-    }
-    int any = 0;
-    for (const float value : least)
-      any |= value <= query.bound ? 1 : 0;
-    if (any == 0) continue;
-    for (std::size_t i = 0; i < kBatch && first + i < groups_.size(); ++i) {
-      if (least[i] <= query.bound) test_group(first + i, query, points);
+  query.farthest = parallel ? 1.00001f : 1.00001f * (glm::length(query.eye - center_) + radius_);
+  std::array<bool, kGroup> outer{}, inner{};
+  for (std::size_t first = 0; first < outer_bounds_.cx.size(); first += kGroup) {
+    if (!outer_bounds_.test(first, query, outer)) continue;
+    for (std::size_t o = 0; o < kGroup; ++o) {
+      const std::size_t begin = kGroup * (first + o);
+      if (!outer[o] || begin >= groups_.size() || !bounds_.test(begin, query, inner)) continue;
+      for (std::size_t i = 0; i < kGroup && begin + i < groups_.size(); ++i) {
+        if (inner[i]) test_group(begin + i, query, points);
+      }
     }
   }
 }
 
+bool EdgeOnFaces::Bounding::test(std::size_t first, const Query& query, std::array<bool, kGroup>& may) const {
+  std::array<float, kGroup> least;
+  // A direction's distance from a plane has nothing of the place: the same sum without centre and offset.
+  const float placed = query.offset;
+  for (std::size_t i = 0; i < kGroup; ++i) {
+    const std::size_t g = first + i;
+    const float x = query.eye.x - placed * cx[g], y = query.eye.y - placed * cy[g], z = query.eye.z - placed * cz[g];
+    const float along = std::abs(ax[g] * x + ay[g] * y + az[g] * z);
+    least[i] = (along - spread[g] * query.farthest - placed * offset[g] - query.slack) * thickness[g];
+  }
+  int any = 0;
+  for (const float value : least)
+    any |= value <= query.bound ? 1 : 0;
+  if (any == 0) return false;
+  for (std::size_t i = 0; i < kGroup; ++i)
+    may[i] = least[i] <= query.bound;
+  return true;
+}
+
 std::size_t EdgeOnFaces::memory_bytes() const {
-  return groups_.size() * (sizeof(Group) + sizeof(Corners) + 9 * sizeof(float));
+  return groups_.size() * (sizeof(Group) + sizeof(Corners) + 10 * sizeof(float));
 }
 
 }  // namespace limn

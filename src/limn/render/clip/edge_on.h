@@ -15,13 +15,13 @@ namespace limn {
 /// How a picture is taken of a mesh, as far as the size of faces in it goes.
 struct PictureScale {
   Eye eye{};
-  Vec3 forward{0, 0, -1};  ///< the camera's axes in the mesh's space, of unit length: the way it looks,
+  Vec3 forward{0, 0, -1};            ///< the camera's axes in the mesh's space, of unit length: the way it looks,
   Vec3 right{1, 0, 0}, up{0, 1, 0};  ///< and across
-  float pixels_per_unit = 1.0f;   ///< at distance 1 (perspective) or anywhere (orthographic)
-  float widest_cosine = 1.0f;     ///< of the angle between `forward` and the picture's corner
-  float vertex_error_px = 0.004f;  ///< how far a vertex may lie from its exact place once rasterized
-  /// Where the axis of view meets the picture, from a pixel's corner: with one sample a pixel, faces between the samples
-  /// are left out. Negative: there are several samples, no face is left out.
+  float pixels_per_unit = 1.0f;      ///< at distance 1 (perspective) or anywhere (orthographic)
+  float widest_cosine = 1.0f;        ///< of the angle between `forward` and the picture's corner
+  float vertex_error_px = 0.004f;    ///< how far a vertex may lie from its exact place once rasterized
+  /// Where the axis of view meets the picture, from a pixel's corner: with one sample a pixel, faces between the
+  /// samples are left out. Negative: there are several samples, no face is left out.
   Vec2 axis_px{-1.0f};
   Vec3 origin{0};  ///< orthographic: a point of the mesh's space on that axis
 };
@@ -47,6 +47,7 @@ class EdgeOnFaces {
 
  private:
   static constexpr std::size_t kGroup = 16;
+  struct Query;
   /// Faces close to each other that look nearly the same way.
   struct alignas(64) Group {
     std::array<float, kGroup> nx, ny, nz, d;
@@ -56,11 +57,14 @@ class EdgeOnFaces {
     float radius;  ///< of a ball about the centre that holds the faces
   };
   /// Of a group at least |axis·(p - center)| - spread |p - center| - offset is every plane's distance from p.
-  struct GroupBounds {
+  struct Bounding {
+    void add(const Mesh& mesh, std::span<const FaceId> faces, std::span<const Plane> planes,
+             std::span<const float> thickness);
+    /// Whether each of sixteen from `first` on may hold faces that turn over; false where none does.
+    bool test(std::size_t first, const Query& query, std::array<bool, kGroup>& may) const;
+    void pad();
     LineVector<float> cx, cy, cz, ax, ay, az, spread, offset, thickness;
   };
-  struct Query;
-
   void add_group(const Mesh& mesh, std::span<const FaceId> faces, std::span<const Plane> planes,
                  std::span<const float> thickness);
   void test_group(std::size_t group, const Query& query, LineVector<Vec3>& points) const;
@@ -70,7 +74,8 @@ class EdgeOnFaces {
   using Corners = std::array<std::array<Vec3, 3>, kGroup>;
   LineVector<Group> groups_;
   LineVector<Corners> corners_;  ///< of each group
-  GroupBounds bounds_;
+  Bounding bounds_;              ///< of each group
+  Bounding outer_bounds_;        ///< of each sixteen groups
   Vec3 center_{0};
   float radius_ = 0;
   float farthest_ = 0;         ///< of the centre from the origin

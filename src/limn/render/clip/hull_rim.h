@@ -28,8 +28,8 @@ static_assert(sizeof(HullVertex) == 52);
 class HullRim {
  public:
   HullRim() = default;
-  /// \param corners  three a face  \pre planes from face_planes(hull), topology from build_topology(hull), both kept by
-  /// nobody
+  /// \param corners  three a face
+  /// \pre planes from face_planes(hull), topology from build_topology(hull); keeps neither
   HullRim(const Topology& topology, std::span<const Plane> planes, std::vector<HullVertex> corners);
 
   /// How wide, and how the camera stands to the mesh.
