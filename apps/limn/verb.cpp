@@ -4,15 +4,15 @@ namespace limn::cli {
 
 std::span<const Verb> verbs() {
   static const std::array all{
-      demo_verb(),       info_verb(),    make_verb(), refine_verb(),
+      demo_verb(),       info_verb(),    make_verb(),       refine_verb(),
 #ifdef LIMN_WITH_GL
       render_verb(),
 #endif
 #ifdef LIMN_WITH_EMBREE
       silhouette_verb(),
 #endif
-      hull_verb(),       bake_verb(), clip_verb(),
-      compare_verb(),    help_verb(), version_verb(), completion_verb(), man_verb(),
+      hull_verb(),       bake_verb(),    clip_verb(),       compare_verb(),
+      help_verb(),       version_verb(), completion_verb(), man_verb(),
   };
   return all;
 }
