@@ -284,6 +284,8 @@ Result<void> ClipFrame::draw_hull(const ClipModel& model, const Placed& placed) 
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(model.hull_index_count_), GL_UNSIGNED_INT, nullptr);
   glDisable(GL_CULL_FACE);
   if (!rim_.empty()) {
+    // Wide as lines want it, the rim would be seen over the hull's own inner edges.
+    if (has_lines()) glStencilFunc(GL_EQUAL, ClipMatte::kLineBit, 0xff);
     glBindVertexArray(model.rim_array_.id());
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(6 * (rim_.size() / 4)), GL_UNSIGNED_INT, nullptr);
   }
