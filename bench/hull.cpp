@@ -4,11 +4,12 @@
 //
 // limn's hulls, outer and inner; plain simplification by meshoptimizer, which encloses nothing; CGAL's Alpha Wrap where
 // this was built with it (Debian: libcgal-dev), its alpha chosen so that about as many faces come out. The contestants
-// alternate; medians, with the fastest and the slowest round. Times are from a mesh in memory. docs/hull.md
+// alternate; medians, with the fastest and the slowest round. Times are processor time, from a mesh in memory.
+// docs/hull.md
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
@@ -85,11 +86,12 @@ struct Row {
   std::vector<Line> lines{};
 };
 
+/// Of this process's processors: on a machine that others use as well, wall time measures them.
 template <class Body>
 double seconds_of(const Body& body) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   body();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 double volume_of(const Mesh& mesh) {

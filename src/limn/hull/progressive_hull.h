@@ -67,7 +67,8 @@ struct Hull {
   std::vector<FaceId> shell_face;      ///< one a face of the hull: its id in `shell`
 };
 
-/// Simplifies a mesh to a hull (docs/hull.md): every point inside the mesh (where its winding number is positive) is inside the hull.
+/// Simplifies a mesh to a hull (docs/hull.md): every point inside the mesh (where its winding number is positive) is
+/// inside the hull.
 ///
 /// Edges collapse, cheapest first, into vertices that lie outside the planes of all faces around them and add the least
 /// volume. Every step is proved by exact orientation tests on the float coordinates that the hull holds,
