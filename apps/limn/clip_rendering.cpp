@@ -8,6 +8,8 @@ void add_clip_options(OptionTable& table, ClipDrawFlags& flags) {
   table.choice("--aa", flags.smoothing,
                {{"none", ClipSmoothing::kNone}, {"lines", ClipSmoothing::kLines}, {"msaa", ClipSmoothing::kMsaa}},
                "outlines of --method clip: msaa (default): 4 samples; lines: soft lines");
+  table.choice("--interior", flags.interior, {{"hull", ClipInterior::kHull}, {"march", ClipInterior::kMarch}},
+               "outlines inside the picture: march (default): the original's; hull: polygons, quicker");
   table.number("--level-tolerance", "PX", flags.tolerance_px, {0.0, 1e6},
                "error of the silhouette of --method clip, in pixels; 0: none (default 0.25)");
 }
@@ -29,6 +31,7 @@ Result<ClipPicture> draw_clip_asset(gl::Context& context, const ClipAsset& asset
   ClipDrawOptions clip;
   clip.antialias = flags.smoothing == ClipSmoothing::kLines ? ClipAntialias::kLines : ClipAntialias::kNone;
   clip.level_tolerance_px = static_cast<float>(flags.tolerance_px);
+  clip.interior.way = flags.interior;
   const ClipInstance instance{&*model, Mat4(1.0f)};
   return render_clipped(context, std::span(&instance, 1), camera, drawing, clip);
 }

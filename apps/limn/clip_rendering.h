@@ -17,9 +17,10 @@ enum class ClipSmoothing { kNone, kLines, kMsaa };
 struct ClipDrawFlags {
   ClipSmoothing smoothing = ClipSmoothing::kMsaa;
   double tolerance_px = 0.25;
+  ClipInterior interior = ClipInterior::kMarch;
 };
 
-/// --aa and --level-tolerance.
+/// --aa, --interior and --level-tolerance.
 void add_clip_options(OptionTable& table, ClipDrawFlags& flags);
 
 /// Reads a clip asset. Errors: kUnreadable as read_clip_asset(), with the way to make one.

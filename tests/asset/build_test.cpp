@@ -152,7 +152,8 @@ TEST(BuildClipAsset, KeepsTheMaterialOfTheOriginal) {
   Mesh original = bumpy_sphere(1280);
   const auto plain = build_clip_asset(original, small_options(40));
   ASSERT_TRUE(plain);
-  EXPECT_EQ(plain->asset.hull.materials[0].base_color, Material{}.base_color);  // as a mesh without one is drawn
+  EXPECT_EQ(plain->asset.hull.materials[0].base_color, plain_material(original).base_color);
+  EXPECT_EQ(plain->asset.hull.materials[0].roughness, plain_material(original).roughness);
   original.materials.resize(1);
   original.materials[0].base_color = Vec4(0.1f, 0.7f, 0.3f, 1.0f);
   original.materials[0].roughness = 0.25f;

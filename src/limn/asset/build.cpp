@@ -77,7 +77,7 @@ Result<Mesh> dressed_hull(const BakedMaps& baked, const Mesh& original) {
   Mesh hull = as_read_back(*mesh);
   // Of several materials none is right everywhere: their colours are in the map.
   if (original.materials.size() <= 1 && !hull.materials.empty()) {
-    const Material from = original.materials.empty() ? Material{} : original.materials[0];
+    const Material from = original.materials.empty() ? plain_material(original) : original.materials[0];
     if (baked.colors.empty()) hull.materials[0].base_color = from.base_color;
     hull.materials[0].metallic = from.metallic;
     hull.materials[0].roughness = from.roughness;

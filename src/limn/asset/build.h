@@ -26,7 +26,7 @@ struct ClipOptions {
   std::size_t levels = 4;   ///< silhouettes at most, the original's included, 1 to 32
   int size_px = 1024;       ///< width and height of the maps, 4 to 16384
   int samples = 1;          ///< a texel: 1, 4 or 16
-  ClipMaps maps;
+  ClipMaps maps{};
   Progress progress{};  ///< stages "hull", "silhouettes", "maps"
 };
 

@@ -11,4 +11,11 @@ Bounds face_bounds(const Mesh& mesh) {
   return bounds;
 }
 
+Material plain_material(const Mesh& mesh) {
+  Material material;
+  material.base_color = mesh.colors.empty() ? Vec4(0.60f, 0.55f, 0.47f, 1.0f) : Vec4(1.0f);
+  material.roughness = 0.38f;
+  return material;
+}
+
 }  // namespace limn

@@ -76,4 +76,7 @@ struct Mesh {
 /// The box of the vertices that faces use (stray vertices do not count); empty when there is no face.
 Bounds face_bounds(const Mesh& mesh);
 
+/// What limn draws a mesh without materials in: light clay, so that shape speaks; white where vertex colours speak.
+Material plain_material(const Mesh& mesh);
+
 }  // namespace limn

@@ -19,15 +19,6 @@ constexpr unsigned kBaseColorUnit = 14;
 constexpr unsigned kNormalUnit = 15;
 constexpr std::size_t kMostTexels = std::size_t{1} << 28;  // of an array: 1 GiB without its mipmaps
 
-/// A material as shaders/material_table.glsl reads it (std430).
-/// What a face looks like without a material: clay, so that shape speaks; white where vertex colours speak.
-Material plain_material(const Mesh& mesh) {
-  Material material;
-  material.base_color = mesh.colors.empty() ? Vec4(0.60f, 0.55f, 0.47f, 1.0f) : Vec4(1.0f);
-  material.roughness = 0.38f;
-  return material;
-}
-
 tl::unexpected<Error> out_of_memory(std::size_t pictures) {
   return fail(ErrorCode::kNoGraphics,
               "the graphics device cannot hold the materials' " + std::to_string(pictures) + " different pictures",

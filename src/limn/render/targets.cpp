@@ -37,7 +37,8 @@ Result<RenderTargets> RenderTargets::create(int width, int height, int samples, 
   targets.stencil_ = stencil;
   const bool has_stencil = stencil != Stencil::kNone;
   targets.color_ = gl::make_texture_2d(GL_SRGB8_ALPHA8, width, height, samples);
-  targets.depth_ = gl::make_texture_2d(has_stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F, width, height, samples);
+  targets.depth_ =
+      gl::make_texture_2d(has_stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F, width, height, samples);
   targets.resolved_ = gl::make_texture_2d(GL_RGBA8, width, height);
   if (gl::take_out_of_memory()) return too_large(width, height, samples);
   targets.faces_ = gl::make_framebuffer();

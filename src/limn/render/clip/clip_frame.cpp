@@ -210,14 +210,14 @@ Result<ClipFrame::Streamed> ClipFrame::stream(const ClipModel& model) {
   return streamed;
 }
 
-void ClipFrame::begin_counting(const Placed& placed) {
+void ClipFrame::begin_counting(const ClipModel& model, const Placed& placed) {
   mask_->use();
   set_place(*mask_, placed.to_world);
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_DEPTH_CLAMP);  // nothing is lost in front of the near plane or behind the far one
   glEnable(GL_STENCIL_TEST);
-  glStencilMask(has_lines() ? ClipMatte::kCountBits : 0xff);
+  glStencilMask(has_lines() ? ClipMatte::kCountBits : marches(model) ? InteriorPass::kCounts : 0xff);
   glStencilFunc(GL_ALWAYS, 0, 0xff);
 }
 
@@ -275,6 +275,7 @@ Result<void> ClipFrame::draw_hull(const ClipModel& model, const Placed& placed) 
     glBlendFunc(GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA);
   }
   glEnable(GL_DEPTH_TEST);
+  if (marches(model)) return draw_interior(model, placed, program);
   glStencilFunc(GL_NOTEQUAL, 0, 0xff);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   glStencilMask(0);
@@ -289,6 +290,57 @@ Result<void> ClipFrame::draw_hull(const ClipModel& model, const Placed& placed) 
     glBindVertexArray(model.rim_array_.id());
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(6 * (rim_.size() / 4)), GL_UNSIGNED_INT, nullptr);
   }
+  return {};
+}
+
+bool ClipFrame::marches(const ClipModel& model) const {
+  return options_.interior.way == ClipInterior::kMarch && options_.antialias != ClipAntialias::kLines &&
+         model.shell_.face_count > 0;
+}
+
+Result<void> ClipFrame::draw_interior(const ClipModel& model, const Placed& placed, const gl::Program& plain) {
+  const std::size_t variant = model.colors_ ? 1 : 0;
+  if (interiors_[variant] == nullptr) {
+    std::vector<std::string> defines;
+    if (model.colors_) defines.emplace_back("DETAIL_COLORS 1");
+    const auto program = context_->program({"clip_interior.vert.glsl", "", "clip_interior.frag.glsl", defines});
+    if (!program) return tl::unexpected(program.error());
+    interiors_[variant] = *program;
+  }
+  const gl::Program& program = *interiors_[variant];
+  program.use();
+  set_place(program, placed.to_world);
+  model.materials_->set_single(program);
+  program.set("shell_range", Vec2(model.displacement_low_, model.displacement_high_));
+  program.set("model_eye", Vec4(placed.eye.at, placed.eye.orthographic ? 0.0f : 1.0f));
+  program.set("unit_px", placed.eye.orthographic ? camera_.pixel_size / placed.scale : camera_.pixel_size);
+  program.set("texels_a_step", options_.interior.texels_a_step);
+  program.set("march_steps", options_.interior.steps);
+  glBindTextureUnit(8, model.displacement_.id());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, model.shell_.faces.id());
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  InteriorPass::Draws draws;
+  draws.mask = mask_;
+  draws.march = &program;
+  draws.plain = &plain;
+  draws.hull = [&] {
+    glBindVertexArray(model.hull_array_.id());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(model.hull_index_count_), GL_UNSIGNED_INT, nullptr);
+  };
+  draws.shell = [&] {
+    glBindVertexArray(model.shell_.array.id());
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * model.shell_.face_count));
+  };
+  draws.rim = [&] {
+    if (rim_.empty()) return;
+    glDisable(GL_CULL_FACE);
+    glBindVertexArray(model.rim_array_.id());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(6 * (rim_.size() / 4)), GL_UNSIGNED_INT, nullptr);
+    glEnable(GL_CULL_FACE);
+  };
+  InteriorPass::draw(draws);
+  glDisable(GL_CULL_FACE);
   return {};
 }
 
@@ -332,7 +384,7 @@ Result<void> ClipFrame::draw_clipped(ClipModel& model, const Placed& placed, Cli
     matte_->draw_lines(stream_.id(), streamed->segments, segments_.size(), rows_of(placed.to_world),
                        options_.line_width_px);
   }
-  begin_counting(placed);
+  begin_counting(model, placed);
   if (drawn.place == EyePlace::kOutside) {
     count_loops(model, *streamed);
   } else {

@@ -7,6 +7,7 @@
 #include "limn/render/camera_block.h"
 #include "limn/render/clip/clip_matte.h"
 #include "limn/render/clip/clip_model.h"
+#include "limn/render/clip/interior_pass.h"
 #include "limn/render/clip/stream_buffer.h"
 #include "limn/render/targets.h"
 
@@ -33,6 +34,7 @@ struct ClipDrawOptions {
   /// Also draw faces that the rasterizer's grid may turn over, without which a pixel of thousands of pictures differs.
   bool exact = true;
   float line_width_px = 1.0f;  ///< of the lines that smooth outlines, > 0
+  InteriorOptions interior;    ///< outlines inside the picture; kLines draws them as the hull has them
   /// sRGB, what the picture is cleared to with kLines, opaque: the alpha channel serves as each model's matte in turn.
   Vec3 background{1, 1, 1};
   /// Wait for the device after each stage, so that ClipDrawn tells their times. Slows frames down.
@@ -102,11 +104,13 @@ class ClipFrame {
   };
   Result<Streamed> stream(const ClipModel& model);
   Result<void> draw_clipped(ClipModel& model, const Placed& placed, ClipDrawn& drawn);
-  void begin_counting(const Placed& placed);
+  bool marches(const ClipModel& model) const;
+  void begin_counting(const ClipModel& model, const Placed& placed);
   void count_loops(const ClipModel& model, const Streamed& streamed);
   bool has_lines() const { return options_.antialias == ClipAntialias::kLines; }
   void count_faces(const ClipLevel& level);
   Result<void> draw_hull(const ClipModel& model, const Placed& placed);
+  Result<void> draw_interior(const ClipModel& model, const Placed& placed, const gl::Program& plain);
   void draw_original(ClipModel& model, const Placed& placed);
   Result<const gl::Program*> hull_program(const ClipModel& model);
 
@@ -115,7 +119,8 @@ class ClipFrame {
   std::unique_ptr<ClipMatte> matte_;
   const gl::Program* mask_ = nullptr;
   const gl::Program* original_ = nullptr;
-  std::array<const gl::Program*, 16> hulls_{};  ///< by which maps a model has, and whether several materials
+  std::array<const gl::Program*, 16> hulls_{};     ///< by which maps a model has, and whether several materials
+  std::array<const gl::Program*, 2> interiors_{};  ///< without and with a picture of colours
   CameraBuffer camera_buffer_;
   CameraBlock camera_;
   float far_distance_ = 0;

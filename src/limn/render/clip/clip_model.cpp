@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "limn/mesh/normals.h"
+#include "limn/render/clip/hull_shell.h"
 #include "limn/render/picture.h"
 #include "limn/silhouette/search/leaf_partition.h"
 
@@ -149,6 +150,9 @@ Result<void> ClipModel::add_hull(const ClipAsset& asset) {
   constexpr float kSmooth = 3.2f;  // all of a vertex in one: what an asset without normals gets
   const std::vector<HullVertex> corners =
       corners_of(hull, hull.normals.empty() ? crease_normals(hull, topology, kSmooth) : hull.normals);
+  if (!asset.maps.normals.rgba.empty() && !asset.maps.displacement.empty() && !hull.uvs.empty() &&
+      !hull.normals.empty())
+    add_shell(hull, corners);
   const IndexedCorners indexed = index_corners(corners);
   hull_vertices_ = gl::make_buffer_of(std::span<const HullVertex>(indexed.vertices));
   hull_indices_ = gl::make_buffer_of(std::span<const std::uint32_t>(indexed.indices));
@@ -178,6 +182,15 @@ Result<void> ClipModel::add_hull(const ClipAsset& asset) {
   if (!plain_material) return tl::unexpected(plain_material.error());
   plain_material_ = std::make_unique<MaterialTable>(std::move(*plain_material));
   return {};
+}
+
+void ClipModel::add_shell(const Mesh& hull, const std::vector<HullVertex>& corners) {
+  shell_.faces = gl::make_buffer_of(std::span<const ShellFace>(shell_faces(hull)));
+  shell_.corners = gl::make_buffer_of(std::span<const HullVertex>(corners));
+  shell_.array = gl::make_vertex_array();
+  attach_surface(shell_.array);
+  glVertexArrayVertexBuffer(shell_.array.id(), 0, shell_.corners.id(), 0, sizeof(HullVertex));
+  shell_.face_count = hull.face_count();
 }
 
 void ClipModel::add_maps(const DetailMaps& maps) {
@@ -220,8 +233,7 @@ const ClipModel::Original& ClipModel::original() {
   if (original_) return *original_;
   constexpr float kSmooth = 3.2f;
   const Topology topology = build_topology(original_mesh_);
-  const std::vector<HullVertex> corners =
-      corners_of(original_mesh_, crease_normals(original_mesh_, topology, kSmooth));
+  const std::vector<HullVertex> corners = corners_of(original_mesh_, crease_normals(original_mesh_, topology, kSmooth));
   original_.emplace();
   original_->vertices = gl::make_buffer_of(std::span<const HullVertex>(corners));
   original_->array = gl::make_vertex_array();

@@ -10,6 +10,7 @@
 #include "limn/render/clip/edge_on.h"
 #include "limn/render/clip/eye_place.h"
 #include "limn/render/clip/hull_rim.h"
+#include "limn/render/clip/interior_pass.h"
 #include "limn/render/clip/stencil_loops.h"
 #include "limn/render/materials.h"
 #include "limn/silhouette/extractor.h"
@@ -22,7 +23,7 @@ struct ClipLevel {
   SilhouetteExtractor extractor;  ///< keeps `planes`
   StencilLoopBuilder loops;
   EdgeOnFaces edge_on;
-  float error = 0;  ///< in the model's units, scaled as the model is
+  float error = 0;              ///< in the model's units, scaled as the model is
   gl::Buffer positions, faces;  ///< all of the mesh, for when the silhouette does not tell what is covered
   gl::VertexArray array;
   std::size_t face_count = 0;
@@ -50,6 +51,7 @@ class ClipModel {
   Result<void> add_level(const SilhouetteLevel& level);
   Result<void> add_hull(const ClipAsset& asset);
   void add_maps(const DetailMaps& maps);
+  void add_shell(const Mesh& hull, const std::vector<HullVertex>& corners);
 
   /// The original with smooth normals, for eyes too close for a hull; made when first needed.
   struct Original {
@@ -71,6 +73,7 @@ class ClipModel {
   std::unique_ptr<MaterialTable> materials_, plain_material_;
   gl::Texture normals_, colors_, displacement_;
   float displacement_low_ = 0, displacement_high_ = 0;
+  ShellBuffers shell_;  ///< where there are object-space normals and a displacement
   Mesh original_mesh_;  ///< of the finest level
   std::optional<Original> original_;
 };

@@ -37,8 +37,10 @@ double solid_angle(const DVec3& a, const DVec3& b, const DVec3& c) {
 std::vector<Vec4> near_region(const CameraBlock& camera) {
   const float height = 0.5f * camera.pixel_size * camera.size_px.y, width = 0.5f * camera.pixel_size * camera.size_px.x;
   if (camera.orthographic != 0)
-    return {{1, 0, 0, width}, {-1, 0, 0, width}, {0, 1, 0, height}, {0, -1, 0, height}, {0, 0, 1, camera.near_distance}};
-  return {{1, 0, -width, 0}, {-1, 0, -width, 0}, {0, 1, -height, 0}, {0, -1, -height, 0}, {0, 0, 1, camera.near_distance}};
+    return {
+        {1, 0, 0, width}, {-1, 0, 0, width}, {0, 1, 0, height}, {0, -1, 0, height}, {0, 0, 1, camera.near_distance}};
+  return {
+      {1, 0, -width, 0}, {-1, 0, -width, 0}, {0, 1, -height, 0}, {0, -1, -height, 0}, {0, 0, 1, camera.near_distance}};
 }
 
 }  // namespace

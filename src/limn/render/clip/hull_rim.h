@@ -36,9 +36,9 @@ class HullRim {
   struct View {
     Eye eye{};
     Vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};  ///< of unit length, in the mesh's space
-    float unit_px = 1;       ///< the mesh's units a pixel: at distance 1 (perspective) or anywhere (orthographic)
+    float unit_px = 1;  ///< the mesh's units a pixel: at distance 1 (perspective) or anywhere (orthographic)
     float half_width_px = 0.0625f;
-    float edge_on = 1e-3f;   ///< planes passing the eye nearer than that times its distance count as both ways
+    float edge_on = 1e-3f;  ///< planes passing the eye nearer than that times its distance count as both ways
   };
 
   /// Appends four vertices an edge, in the order of a strip.

@@ -13,7 +13,7 @@ namespace limn {
 
 /// Triangles whose signed areas in any picture add up to the silhouette's winding numbers: what the stencil counts.
 struct StencilLoops {
-  LineVector<Vec3> points;           ///< loop after loop, each point where an edge of the silhouette starts
+  LineVector<Vec3> points;            ///< loop after loop, each point where an edge of the silhouette starts
   LineVector<std::uint32_t> corners;  ///< indices into points, three a triangle
   LineVector<std::uint32_t> ends;     ///< a loop: one past its last point
   std::size_t edge_count = 0;         ///< edges of the silhouette
@@ -66,7 +66,7 @@ class StencilLoopBuilder {
 
   std::vector<Vec3> positions_;
   LineVector<DirectedEdge> edges_;
-  std::vector<CrowdedFace> crowded_;  ///< those of an edge in a row
+  std::vector<CrowdedFace> crowded_;   ///< those of an edge in a row
   LineVector<std::uint32_t> leaving_;  ///< a vertex: its first step, kInvalidId between calls
   LineVector<Step> steps_;
   std::size_t step_count_ = 0;

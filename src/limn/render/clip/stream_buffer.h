@@ -9,8 +9,8 @@
 
 namespace limn {
 
-/// Device memory that the CPU writes anew each frame, mapped once. Three parts in turn, so that writing one seldom waits
-/// for the device to have read it. Needs a current context for everything.
+/// Device memory that the CPU writes anew each frame, mapped once. Three parts in turn, so that writing one seldom
+/// waits for the device to have read it. Needs a current context for everything.
 class StreamBuffer {
  public:
   StreamBuffer() = default;
