@@ -3,7 +3,7 @@
 // Every place in the shell is X = P(b) - depth * N(b): P and N interpolate the corners of a hull's face at barycentric
 // coordinates (1 - b.x - b.y, b.x, b.y). N is not of unit length; what lies at distance d along the unit normal has
 // depth d / |N|. Faces share corners and normals, so the shell's prisms meet without gaps, and a ray that leaves one
-// enters the next. docs/interior-silhouettes.md; render/clip/shell_buffer.h fills the buffer.
+// enters the next. docs/interior-silhouettes.md; render/clip/hull_shell.h fills the buffer.
 
 struct ShellFace {
   vec4 corner[3];     // xyz: place; w: u

@@ -67,7 +67,7 @@ Result<void> check(const Session& session, const HullFlags& flags) {
   }
   if (flags.sequence == "-")
     return fail(ErrorCode::kInvalidArgument, "hull: a sequence cannot be written to standard output", "name a file");
-  const Result<void> output = flags.output.path.empty() ? Result<void>{} : check_output(session, flags.output);
+  Result<void> output = flags.output.path.empty() ? Result<void>{} : check_output(session, flags.output);
   if (!output || flags.sequence.empty()) return output;
   return check_destination(session, flags.sequence);
 }

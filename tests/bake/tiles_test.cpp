@@ -79,7 +79,8 @@ TEST(Tiles, AreNotMixedWithTheirNeighboursUpToTheCleanMipLevel) {
 }
 
 TEST(Tiles, AreAsLargeAsTheBudgetAllows) {
-  for (const auto& [faces, size] : {std::array{500, 1024}, {4000, 1024}, {4000, 2048}, {20, 64}}) {
+  for (const auto& row : {std::array{500, 1024}, {4000, 1024}, {4000, 2048}, {20, 64}}) {
+    const int faces = row[0], size = row[1];
     const auto layout = plan_tiles(static_cast<std::size_t>(faces), size, 0);
     ASSERT_TRUE(layout);
     const auto squares = [&](int tile) { return (size / tile) * (size / tile); };

@@ -67,9 +67,11 @@ TEST_F(ClipRender, MeshesAndOptionsThatAreNotForItAreRefused) {
   EXPECT_EQ(mesh.exit, 3) << mesh.err;
   for (const char* option : {"--wireframe", "--flat", "--outline", "--levels"})
     EXPECT_EQ(limn.run({"render", "missing.glb", "-o", "out.png", "--method", "clip", option}).exit, 2) << option;
+  ASSERT_EQ(limn.run({"clip", "knot.ply", "-o", "knot.glb", "--faces", "200", "--size", "128"}).exit, 0);
   const Outcome lines = limn.run(
-      {"render", "missing.glb", "-o", "out.png", "--method", "clip", "--aa", "lines", "--background", "transparent"});
-  EXPECT_NE(lines.exit, 0);
+      {"render", "knot.glb", "-o", "out.png", "--method", "clip", "--aa", "lines", "--background", "transparent"});
+  EXPECT_EQ(lines.exit, 2);
+  EXPECT_NE(lines.err.find("opaque"), std::string::npos) << lines.err;
 }
 
 }  // namespace

@@ -38,12 +38,11 @@ Result<AssetBytes> write_clip_asset(const ClipAsset& asset, const std::filesyste
 
 /// Reads an asset. Levels, their search trees, maps and bounds come back bit for bit; the hull as read_mesh() reads it.
 ///
-/// Guarantees: as of read_mesh(); levels have faces, indices in range, finite coordinates, search trees that hold
-/// every edge of exactly that mesh, ascending errors. Whatever the bytes are, memory stays within a multiple of their
-/// number, and what is read finds the exact silhouettes of the meshes it gives.
-/// Cost: about 0.5 µs a triangle of the levels.
-/// Errors: kUnreadable, with file, place and remedy: no such file, not a clip asset, of another version, cut off, any
-/// byte altered, or written by another program.
+/// Guarantees: as of read_mesh(); levels have faces, indices in range, finite coordinates, search trees, where the file
+/// has them, that hold every edge of exactly that mesh, ascending errors. Whatever the bytes are, memory stays within a
+/// multiple of their number, and what is read finds the exact silhouettes of the meshes it gives. Cost: about 0.5 µs a
+/// triangle of the levels. Errors: kUnreadable, with file, place and remedy: no such file, not a clip asset, of another
+/// version, cut off, any byte altered, or written by another program.
 Result<ClipAsset> read_clip_asset(const std::filesystem::path& path);
 
 /// The same from memory. \param name stands for the file in messages

@@ -100,7 +100,7 @@ class Reader {
   }
 
   Field levels_field() const {
-    const Field levels = extension_["levels"];
+    Field levels = extension_["levels"];
     if (levels.size() == 0 || levels.size() > asset::kMostLevels)
       refuse(levels.path(), fmt::format("must be 1 to {}, not {}", asset::kMostLevels, levels.size()),
              std::string(kAgain));

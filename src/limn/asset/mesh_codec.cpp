@@ -19,7 +19,7 @@ std::vector<std::byte> encode_mesh(const Mesh& mesh) {
   std::vector<Triangle> faces = mesh.faces;
   connectivity.code(faces, faces.size());
   const WholeNumbers numbers(WholeNumbers::digits_of(mesh.positions));
-  coder.raw(static_cast<std::uint64_t>(numbers.digits() + 1), kDigitBits);
+  coder.raw(static_cast<std::uint64_t>(numbers.digits()) + 1, kDigitBits);
   std::vector<Vec3> positions = mesh.positions;
   PositionCodec<RangeEncoder>(coder, numbers).code(positions, connectivity.guesses());
   std::vector<std::byte> bytes = coder.finish();

@@ -1,7 +1,9 @@
 #include "limn/asset/silhouette_levels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "limn/asset/mesh_codec.h"
 #include "limn/asset/surface_distance.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "limn/bake/tangent_space.h"
 #include "limn/base/parallel.h"

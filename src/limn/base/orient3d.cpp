@@ -1,6 +1,7 @@
 #include "limn/base/orient3d.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
 

@@ -68,7 +68,7 @@ void Collapser::offer_around(std::span<const VertexId> vertices) {
   touched_.resize(surface_.vertex_count(), 0);
   for (const VertexId v : vertices) {
     if (!surface_.alive(v)) {
-      born_[v] += kDead;
+      born_[v] |= kDead;
       continue;
     }
     ++born_[v];

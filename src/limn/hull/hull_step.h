@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "limn/base/vec.h"
 #include "limn/mesh/ids.h"
 

@@ -16,6 +16,9 @@ void InsideGuard::gather(const RingSurface& surface, VertexId vertex, VertexId s
 }
 
 bool InsideGuard::allows(const RingSurface& surface, const HullStep& step) {
+  if (step.kind == HullStep::Kind::kCut) {
+    return !tree_.pierces({surface.position(step.kept), surface.position(step.removed), surface.position(step.left)});
+  }
   const bool collapses = step.kind == HullStep::Kind::kCollapse;
   if (!collapses && step.kind != HullStep::Kind::kMove) return true;
   if (tree_.crosses(step.before, step.after)) {

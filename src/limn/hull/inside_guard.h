@@ -13,8 +13,8 @@ namespace limn {
 /// no point inside the hull is outside the mesh, but some of its surface is.
 ///
 /// A vertex starts on the shell and must get to its new place, or from that of the vertex it becomes one with, on a
-/// straight way that does not cross it; faces that collapses and moves change must not pass through it. What others do
-/// not touch may still be outside where the shell itself winds backwards.
+/// straight way that does not cross it; faces that collapses, moves and cuts make must not pass through it. What others
+/// do not touch may still be outside where the shell itself winds backwards.
 class InsideGuard : public StepGuard {
  public:
   /// Cost: n log n, once; then logarithmic for each step, and in proportion to the faces near its own.

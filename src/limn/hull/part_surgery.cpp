@@ -45,8 +45,8 @@ void for_each_face(const RingSurface& surface, VertexId v, const Body& body) {
 
 }  // namespace
 
-PartSurgery::PartSurgery(RingSurface& surface, std::vector<HullStep>& log, Certificate& certificate)
-    : surface_(surface), log_(log), certificate_(certificate), marks_(surface.vertex_count(), 0) {
+PartSurgery::PartSurgery(RingSurface& surface, std::vector<HullStep>& log, Certificate& certificate, StepGuard* guard)
+    : surface_(surface), log_(log), certificate_(certificate), guard_(guard), marks_(surface.vertex_count(), 0) {
   std::vector<FaceId> ids;
   const std::vector<Triangle> faces = surface.faces(ids);
   whole_volume_ = faces.empty() ? 0.0 : std::abs(volume_of(faces, surface));
@@ -95,9 +95,11 @@ double PartSurgery::volume_beyond(const Beyond& side, const Triangle& waist) con
   return volume_of(faces, surface_);
 }
 
-HullStep PartSurgery::cut(VertexId a, VertexId b, VertexId c, std::vector<VertexId>& changed) {
+std::optional<HullStep> PartSurgery::cut(VertexId a, VertexId b, VertexId c, std::vector<VertexId>& changed) {
   const HullStep step = surface_.cut_step(a, b, c);
+  if (guard_ != nullptr && !guard_->allows(surface_, step)) return std::nullopt;
   surface_.apply(step);
+  if (guard_ != nullptr) guard_->taken(surface_, step);
   log_.push_back(step);
   ++cuts_;
   changed.insert(changed.end(), {a, b, c, step.right, step.right + 1, step.right + 2});
@@ -109,8 +111,9 @@ bool PartSurgery::cut_waist(VertexId a, VertexId b, std::vector<VertexId>& chang
   if (c == kInvalidId) return false;
   const Beyond side = beyond(a, b, c);
   if (side.parts && (side.vertices.empty() || volume_beyond(side, {a, b, c}) > 0.0)) return false;
-  const HullStep step = cut(a, b, c, changed);
-  if (side.parts) dissolve(side.left ? a : step.right, changed);
+  const std::optional<HullStep> step = cut(a, b, c, changed);
+  if (!step) return false;
+  if (side.parts) dissolve(side.left ? a : step->right, changed);
   return true;
 }
 
@@ -134,8 +137,9 @@ bool PartSurgery::cut_somewhere(const std::vector<VertexId>& part, std::vector<V
       const VertexId b = link.vertex;
       const VertexId c = surface_.waist(a, b);
       if (c == kInvalidId) continue;
-      const HullStep step = cut(a, b, c, changed);
-      ends.insert(ends.end(), {step.right, a});
+      const std::optional<HullStep> step = cut(a, b, c, changed);
+      if (!step) continue;
+      ends.insert(ends.end(), {step->right, a});
       return true;
     }
   }
@@ -317,9 +321,9 @@ std::vector<Triangle> PartSurgery::faces_inside(const Part& part, const std::vec
 /// Whether a plane of the tetrahedron or the triangle's own parts their insides; it may touch.
 bool PartSurgery::is_outside_tetrahedron(const Triangle& face, const Part& tetrahedron) const {
   const auto at = [&](VertexId v) -> const Vec3& { return surface_.position(v); };
-  for (const auto& [a, b, c] : tetrahedron.faces) {
-    if (std::all_of(face.begin(), face.end(), [&](VertexId v) { return orient3d(at(a), at(b), at(c), at(v)) >= 0; }))
-      return true;
+  for (const Triangle& side : tetrahedron.faces) {
+    const auto in_front = [&](VertexId v) { return orient3d(at(side[0]), at(side[1]), at(side[2]), at(v)) >= 0; };
+    if (std::all_of(face.begin(), face.end(), in_front)) return true;
   }
   int least = 1, most = -1;
   for (const VertexId v : tetrahedron.vertices) {

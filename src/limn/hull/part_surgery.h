@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "limn/base/bounds.h"
 #include "limn/hull/certificate.h"
 #include "limn/hull/ring_surface.h"
+#include "limn/hull/step_guard.h"
 
 namespace limn {
 
@@ -14,8 +16,8 @@ namespace limn {
 /// stumble over: cuts along waists, cavities filled, hidden parts dropped. Each is proved exactly (docs/hull.md).
 class PartSurgery {
  public:
-  /// All must outlive it. Steps taken are added to `log`.
-  PartSurgery(RingSurface& surface, std::vector<HullStep>& log, Certificate& certificate);
+  /// All must outlive it. Steps taken are added to `log`. \param guard  asked before cuts; may be nullptr
+  PartSurgery(RingSurface& surface, std::vector<HullStep>& log, Certificate& certificate, StepGuard* guard);
 
   /// Cuts the surface along a triangle of edges that is no face, of which (a, b) is one, where that opens a tunnel or
   /// parts off a pocket: what lies beyond it encloses a negative volume. Pockets are cut on and filled as far as can
@@ -45,7 +47,8 @@ class PartSurgery {
 
   Beyond beyond(VertexId a, VertexId b, VertexId c);
   double volume_beyond(const Beyond& side, const Triangle& waist) const;
-  HullStep cut(VertexId a, VertexId b, VertexId c, std::vector<VertexId>& changed);
+  /// None where the guard forbids it.
+  std::optional<HullStep> cut(VertexId a, VertexId b, VertexId c, std::vector<VertexId>& changed);
   void dissolve(VertexId pocket, std::vector<VertexId>& changed);
   bool cut_somewhere(const std::vector<VertexId>& part, std::vector<VertexId>& ends, std::vector<VertexId>& changed);
   bool fill(const Part& part);
@@ -66,6 +69,7 @@ class PartSurgery {
   RingSurface& surface_;
   std::vector<HullStep>& log_;
   Certificate& certificate_;
+  StepGuard* guard_;
   std::vector<std::uint32_t> marks_;
   std::uint32_t mark_ = 0;
   double whole_volume_ = 0;

@@ -61,7 +61,7 @@ class Shrinker {
         options_(options),
         guard_(guard_for(shell, options)),
         collapser_(surface, steps_, certificate_, guard_.get()),
-        surgery_(surface, steps_, certificate_),
+        surgery_(surface, steps_, certificate_, guard_.get()),
         first_faces_(surface.live_faces()) {}
 
   /// \return false when cancelled

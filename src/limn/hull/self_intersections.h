@@ -11,7 +11,8 @@ namespace limn {
 /// Two faces that intersect, the lower id first.
 struct FacePair {
   FaceId a, b;
-  friend auto operator<=>(const FacePair&, const FacePair&) = default;
+  friend bool operator==(const FacePair& x, const FacePair& y) { return x.a == y.a && x.b == y.b; }
+  friend bool operator<(const FacePair& x, const FacePair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }
 };
 
 /// Every pair of faces that have a point in common besides the corners and sides they share, ascending. Shared is what

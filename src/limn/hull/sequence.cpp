@@ -38,6 +38,9 @@ bool all_finite(std::span<const Vec2> uvs) {
 Result<void> HullSequence::go(const Shell& shell, bool inwards, Way& way) {
   StepReplay replay(shell.positions, inwards ? turned_faces(shell.faces) : shell.faces);
   StepChanges changes;
+  // Hulls take less than a tenth of this. Steps made to turn one fan of n faces n times would take n² corners.
+  const std::size_t most_corners =
+      std::min<std::size_t>(0xffffffffu, 64 * (3 * shell.faces.size() + 16 * way.steps.size()));
   way.faces = way.fewest = {static_cast<std::uint32_t>(replay.face_count())};
   way.corner_offsets = way.killed_offsets = way.vanished_offsets = {0};
   for (std::size_t i = 0; i < way.steps.size(); ++i) {
@@ -51,6 +54,10 @@ Result<void> HullSequence::go(const Shell& shell, bool inwards, Way& way) {
     replay.apply(step, changes);
     for (const limn::CornerChange& change : changes.corners)
       way.corners.push_back({inwards ? turned_corner(change.corner) : change.corner, change.from, change.to});
+    if (way.corners.size() > most_corners) {
+      return fail_at(ErrorCode::kInvalidArgument, {}, fmt::format("{} step {}", inwards ? "inner" : "outer", i),
+                     "the steps move more corners than steps towards a hull do", "give the steps that a hull took");
+    }
     way.killed.insert(way.killed.end(), changes.killed.begin(), changes.killed.end());
     way.vanished.insert(way.vanished.end(), changes.vanished.begin(), changes.vanished.end());
     way.corner_offsets.push_back(static_cast<std::uint32_t>(way.corners.size()));

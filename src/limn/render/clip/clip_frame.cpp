@@ -118,7 +118,7 @@ ClipFrame::Box ClipFrame::box_of(const Bounds& bounds, const Placed& placed) con
     low = glm::min(low, window);
     high = glm::max(high, window);
   }
-  const float margin = 2.0f + (has_lines() ? options_.line_width_px : 0.0f);
+  const float margin = 2.0f + options_.level_tolerance_px + (has_lines() ? options_.line_width_px : 0.0f);
   low = glm::clamp(low - margin, Vec2(0.0f), camera_.size_px);
   high = glm::clamp(high + margin, Vec2(0.0f), camera_.size_px);
   Box box;
@@ -345,7 +345,7 @@ Result<void> ClipFrame::draw_interior(const ClipModel& model, const Placed& plac
 }
 
 void ClipFrame::draw_original(ClipModel& model, const Placed& placed) {
-  const ClipModel::Original& original = model.original();
+  const ClipOriginal& original = model.original();
   original_->use();
   set_place(*original_, placed.to_world);
   original_->set("flat_normals", 0);

@@ -66,9 +66,10 @@ class ClipFrame {
   /// geometry may be drawn before and after with any program: depth test on, stencil test off.
   ///
   /// With one sample or four and antialias kNone, whatever the order, exactly those samples are covered that the
-  /// original's own faces would cover. kLines wants models farther away first.
-  /// \param to_world  turns, moves, scales alike in all directions  \pre between begin() and end()
-  /// Cost: see docs/clipping.md. Errors: kNoGraphics when the device has no memory for the silhouette.
+  /// original's own faces would cover, where fewer than 128 layers lie behind one another (256 with kHull). kLines
+  /// wants models farther away first. \param to_world  turns, moves, scales alike in all directions  \pre between
+  /// begin() and end() Cost: see docs/clipping.md. Errors: kNoGraphics when the device has no memory for the
+  /// silhouette.
   Result<ClipDrawn> draw(ClipModel& model, const Mat4& to_world = Mat4(1.0f));
 
   /// Ends the picture: the GL state is as begin() set it, for ordinary geometry.

@@ -157,7 +157,6 @@ Result<void> ClipModel::add_hull(const ClipAsset& asset) {
   hull_vertices_ = gl::make_buffer_of(std::span<const HullVertex>(indexed.vertices));
   hull_indices_ = gl::make_buffer_of(std::span<const std::uint32_t>(indexed.indices));
   hull_index_count_ = indexed.indices.size();
-  hull_face_count_ = hull.face_count();
   hull_array_ = gl::make_vertex_array();
   attach_surface(hull_array_);
   glVertexArrayVertexBuffer(hull_array_.id(), 0, hull_vertices_.id(), 0, sizeof(HullVertex));
@@ -229,7 +228,7 @@ Result<ClipModel> ClipModel::create(gl::Context& context, const ClipAsset& asset
   return fail(ErrorCode::kNoGraphics, "not enough memory for the asset");
 }
 
-const ClipModel::Original& ClipModel::original() {
+const ClipOriginal& ClipModel::original() {
   if (original_) return *original_;
   constexpr float kSmooth = 3.2f;
   const Topology topology = build_topology(original_mesh_);

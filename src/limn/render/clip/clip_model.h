@@ -29,6 +29,13 @@ struct ClipLevel {
   std::size_t face_count = 0;
 };
 
+/// The original with smooth normals, for eyes too close for a hull.
+struct ClipOriginal {
+  gl::Buffer vertices;
+  gl::VertexArray array;
+  std::size_t vertex_count = 0;
+};
+
 /// A clip asset in the device's memory, with what finds its silhouettes (docs/clipping.md). Draw it with a ClipFrame.
 class ClipModel {
  public:
@@ -39,7 +46,6 @@ class ClipModel {
   static Result<ClipModel> create(gl::Context& context, const ClipAsset& asset);
 
   std::size_t level_count() const { return levels_.size(); }
-  std::size_t hull_face_count() const { return hull_face_count_; }
   /// By what the model's units were multiplied: 1, or a power of two for very small or large models.
   double unit_scale() const { return unit_scale_; }
   const Bounds& bounds() const { return bounds_; }  ///< of the original, scaled
@@ -53,18 +59,11 @@ class ClipModel {
   void add_maps(const DetailMaps& maps);
   void add_shell(const Mesh& hull, const std::vector<HullVertex>& corners);
 
-  /// The original with smooth normals, for eyes too close for a hull; made when first needed.
-  struct Original {
-    gl::Buffer vertices;
-    gl::VertexArray array;
-    std::size_t vertex_count = 0;
-  };
-  const Original& original();
+  const ClipOriginal& original();
 
   double unit_scale_ = 1;
   Bounds bounds_;
   std::vector<std::unique_ptr<ClipLevel>> levels_;
-  std::size_t hull_face_count_ = 0;
   gl::Buffer hull_vertices_, hull_indices_, rim_indices_;
   gl::VertexArray hull_array_, rim_array_, loop_array_;
   std::size_t hull_index_count_ = 0;
@@ -75,7 +74,7 @@ class ClipModel {
   float displacement_low_ = 0, displacement_high_ = 0;
   ShellBuffers shell_;  ///< where there are object-space normals and a displacement
   Mesh original_mesh_;  ///< of the finest level
-  std::optional<Original> original_;
+  std::optional<ClipOriginal> original_;
 };
 
 }  // namespace limn
