@@ -54,7 +54,7 @@ float original_depth() {
   vec3 n = shading_normal / max(length(shading_normal), 1e-20);
   vec3 p = at + n * away;
   vec4 clip = projection * vec4(p, 1.0);
-  return clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 1.0);
+  return clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 0.99999994);
 }
 #endif
 

@@ -32,8 +32,6 @@ void main() {
   Material m = material_of(material);
   vec3 base = base_color_of(m, texture_uv);
   vec2 texels = vec2(textureSize(detail_normals, 0));
-  vec2 across = dFdx(texture_uv) * texels, down = dFdy(texture_uv) * texels;
-  float lod = 0.5 * log2(max(dot(across, across), dot(down, down)));
   vec3 direction = model_eye.w == 0.0 ? -model_eye.xyz : model_at - model_eye.xyz;
   float away = model_eye.w == 0.0 ? 1.0 : length(direction);
   direction = normalize(direction);
@@ -45,12 +43,12 @@ void main() {
   ShellFrame frame = shell_frame(shell_faces[place.face], place);
   vec3 seen = mat3(rotation) * (to_world(vec4(frame.at, 1.0)) - eye);
   vec4 clip = projection * vec4(seen, 1.0);
-  gl_FragDepth = clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 1.0);
+  gl_FragDepth = clamp(0.5 + 0.5 * clip.z / clip.w, 0.0, 0.99999994);
   vec3 to_eye = orthographic ? vec3(0.0, 0.0, 1.0) : normalize(-seen);
-  vec3 n = textureLod(detail_normals, frame.uv, lod).xyz * 2.0 - 1.0;
+  vec3 n = textureLod(detail_normals, frame.uv, 0.0).xyz * 2.0 - 1.0;
   n = normalize(mat3(rotation) * to_world(vec4(n, 0.0)));
 #ifdef DETAIL_COLORS
-  base = textureLod(detail_colors, frame.uv, lod).rgb;
+  base = textureLod(detail_colors, frame.uv, 0.0).rgb;
 #endif
   color = vec4(shade(n, to_eye, base * tint.rgb, m.metallic, m.roughness, world_up), 1.0);
 }

@@ -52,6 +52,9 @@ bool wants(const BakeFlags& flags, std::string_view map) {
 Result<void> check(const Session& session, const BakeFlags& flags) {
   if (flags.high.path == "-" && flags.low.path == "-")
     return fail(ErrorCode::kInvalidArgument, "bake: both meshes are standard input", "name a file for one of them");
+  if (flags.files.path == "-")
+    return fail(ErrorCode::kInvalidArgument, "bake: a folder of maps cannot be standard output",
+                "name a folder, or a .glb, .gltf or .obj");
   if (!is_model(flags.files.path)) return check_destination(session, flags.files.path);
   const bool other = flags.object_space || wants(flags, "displacement") || wants(flags, "ao");
   if (other || flags.files.depth == 32) {

@@ -1,4 +1,5 @@
 #include <array>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -60,6 +61,11 @@ double volume_of(const Mesh& mesh) {
   return volume;
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return !b.empty() && std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+}
+
 Result<void> check(const Session& session, const HullFlags& flags) {
   if (flags.output.path.empty() && flags.sequence.empty()) {
     return fail(ErrorCode::kInvalidArgument, "hull: -o FILE is missing",
@@ -69,6 +75,10 @@ Result<void> check(const Session& session, const HullFlags& flags) {
     return fail(ErrorCode::kInvalidArgument, "hull: a sequence cannot be written to standard output", "name a file");
   Result<void> output = flags.output.path.empty() ? Result<void>{} : check_output(session, flags.output);
   if (!output || flags.sequence.empty()) return output;
+  if (same_file(flags.sequence, flags.output.path)) {
+    return fail_at(ErrorCode::kInvalidArgument, flags.sequence, {}, "hull: the sequence and the hull are one file",
+                   "give them two names");
+  }
   return check_destination(session, flags.sequence);
 }
 

@@ -129,7 +129,7 @@ Result<void> check_picture_output(const Session& session, const std::string& pat
   if (path == "-") return check_free_stdout(session);
   if (std::filesystem::path(path).extension() != extension) {
     return fail_at(ErrorCode::kInvalidArgument, path, {}, fmt::format("its name does not end in {}", extension),
-                   fmt::format("pictures are written as {}", extension));
+                   fmt::format("give it a name that ends in {}", extension));
   }
   return check_folder(path);
 }

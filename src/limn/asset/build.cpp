@@ -105,10 +105,15 @@ Result<BuiltClipAsset> build_clip_asset(const Mesh& original, const ClipOptions&
   Result<std::vector<SilhouetteLevel>> levels = asset::silhouette_levels(*hull, options.levels, options.progress);
   if (!levels) return tl::unexpected(levels.error());
   built.report.silhouettes_ms = clock.lap_ms();
+  for (const SilhouetteLevel& level : *levels) {
+    if (!std::isfinite(level.error))
+      return fail(ErrorCode::kUnsuitable, "the mesh is too large for its silhouettes' errors to be told",
+                  "scale it down");
+  }
   const Mesh low = std::move(hull->mesh);
   built.report.hull = std::move(hull->report);
-  built.report.notes = built.report.hull.notes;
-  hull = Hull{};  // its steps are as large as the original
+  built.report.notes = hull->shell.notes;  // not what hulls alone drop: maps take its place
+  hull = Hull{};                           // its steps are as large as the original
   const Result<BakedMaps> baked = bake_maps(original, low, options);
   if (!baked) return tl::unexpected(baked.error());
   Result<Mesh> dressed = dressed_hull(*baked, original);

@@ -34,7 +34,7 @@ struct ClipAsset {
   Mesh hull;  ///< encloses every level; normals, uvs of its maps, one material with a tangent-space normal map
   std::vector<SilhouetteLevel> levels;  ///< finest first, at least one; errors ascend
   DetailMaps maps;
-  Bounds bounds;  ///< of the original: cameras fit these, so that pictures of model and asset line up
+  Bounds bounds;  ///< of the original
 };
 
 }  // namespace limn

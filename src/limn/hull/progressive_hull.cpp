@@ -21,7 +21,7 @@ namespace limn {
 namespace {
 
 constexpr std::size_t kSeldom = 1024;       // collapses between two reports of progress
-constexpr std::size_t kCleanFrom = 16;      // hidden parts are looked for from so many times the target on
+constexpr std::size_t kCleanFrom = 4;       // hidden parts are looked for from so many times the target on
 constexpr std::size_t kEagerFrom = 6;       // costs are kept up to date from so many times the target on
 constexpr double kCleanStep = 0.75;         // and again when that much of what is above the target is left
 constexpr double kReaches[] = {10.0, 1e3};  // edge lengths that a vertex may move: farther when nothing is left

@@ -1,7 +1,6 @@
 #include "limn/render/clip/clip_model.h"
 
 #include <algorithm>
-#include <bit>
 #include <epoxy/gl.h>
 #include <new>
 #include <string>
@@ -85,22 +84,18 @@ void attach_positions(const gl::VertexArray& array) {
   glVertexArrayAttribBinding(array.id(), 0, 0);
 }
 
-int levels_of(int width, int height) {
-  return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(width, height))));
-}
-
-/// From one mip level: baked maps vary little between levels, and two cost a third of a hull's time on a CPU.
+/// Without mip levels: neighbouring tiles belong to faces far apart, and a level coarser than a tile's gutter mixes
+/// them, which shows as dots along the hull's edges.
 void filter(const gl::Texture& texture) {
-  glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glGenerateTextureMipmap(texture.id());
 }
 
 gl::Texture upload_picture(const Image& image, GLenum format) {
   if (image.rgba.empty()) return {};
-  gl::Texture texture = gl::make_texture_2d(format, image.width, image.height, 1, levels_of(image.width, image.height));
+  gl::Texture texture = gl::make_texture_2d(format, image.width, image.height);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
   filter(texture);
@@ -197,7 +192,7 @@ void ClipModel::add_maps(const DetailMaps& maps) {
   colors_ = upload_picture(maps.colors, GL_SRGB8_ALPHA8);
   if (maps.displacement.empty()) return;
   const int width = maps.displacement_width, height = maps.displacement_height;
-  displacement_ = gl::make_texture_2d(GL_R16, width, height, 1, levels_of(width, height));
+  displacement_ = gl::make_texture_2d(GL_R16, width, height);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
   glTextureSubImage2D(displacement_.id(), 0, 0, 0, width, height, GL_RED, GL_UNSIGNED_SHORT, maps.displacement.data());
   filter(displacement_);
