@@ -98,8 +98,12 @@ Result<BuiltClipAsset> build_clip_asset(const Mesh& original, const ClipOptions&
   if (const Result<void> good = check(options); !good) return tl::unexpected(good.error());
   BuiltClipAsset built;
   Clock clock;
+  // Without texture coordinates: the hull's maps have their own, and nobody need hear what became of the original's.
+  Mesh surface;
+  surface.positions = original.positions;
+  surface.faces = original.faces;
   Result<Hull> hull = build_hull(
-      original, {.faces = options.faces, .strict = options.strict, .keep_steps = true, .progress = options.progress});
+      surface, {.faces = options.faces, .strict = options.strict, .keep_steps = true, .progress = options.progress});
   if (!hull) return tl::unexpected(hull.error());
   built.report.hull_ms = clock.lap_ms();
   Result<std::vector<SilhouetteLevel>> levels = asset::silhouette_levels(*hull, options.levels, options.progress);
@@ -112,8 +116,8 @@ Result<BuiltClipAsset> build_clip_asset(const Mesh& original, const ClipOptions&
   }
   const Mesh low = std::move(hull->mesh);
   built.report.hull = std::move(hull->report);
-  built.report.notes = hull->shell.notes;  // not what hulls alone drop: maps take its place
-  hull = Hull{};                           // its steps are as large as the original
+  built.report.notes = built.report.hull.notes;
+  hull = Hull{};  // its steps are as large as the original
   const Result<BakedMaps> baked = bake_maps(original, low, options);
   if (!baked) return tl::unexpected(baked.error());
   Result<Mesh> dressed = dressed_hull(*baked, original);
