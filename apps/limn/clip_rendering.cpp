@@ -1,6 +1,9 @@
 #include "clip_rendering.h"
 
+#include <cstring>
+
 #include "limn/asset/asset_file.h"
+#include "limn/base/file.h"
 
 namespace limn::cli {
 
@@ -15,7 +18,14 @@ void add_clip_options(OptionTable& table, ClipDrawFlags& flags) {
 }
 
 Result<ClipAsset> load_clip_asset(const std::string& path) {
-  Result<ClipAsset> asset = read_clip_asset(path);
+  const Result<FileBytes> file = FileBytes::open(path);
+  if (!file) return tl::unexpected(file.error());
+  const std::span<const std::byte> bytes = file->bytes();
+  if (bytes.size() < 4 || std::memcmp(bytes.data(), "glTF", 4) != 0) {
+    return fail_at(ErrorCode::kUnreadable, path == "-" ? "standard input" : path, {}, "is no clip asset",
+                   "make one of it: limn clip MODEL -o OUT.glb");
+  }
+  Result<ClipAsset> asset = read_clip_asset(bytes, path);
   if (asset || asset.error().code != ErrorCode::kUnreadable) return asset;
   Error error = asset.error();
   if (error.remedy.empty()) error.remedy = "--method clip draws what limn clip MODEL -o OUT.glb writes";

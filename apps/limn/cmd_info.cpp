@@ -157,6 +157,9 @@ Result<int> run(Session& session, const InfoOptions& options) {
   const MeshReport report = validate(loaded->mesh, build_topology(loaded->mesh));
   if (!options.output.path.empty()) {
     const Result<void> saved = save(session, loaded->mesh, options.output);
+    if (saved && loaded->asset)
+      session.say(
+          fmt::format("{}: holds the hull alone; the asset's silhouettes and maps are left out", options.output.path));
     if (!saved) return tl::unexpected(saved.error());
     if (options.output.path == "-") return kExitDone;
   }

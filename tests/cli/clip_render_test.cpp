@@ -65,6 +65,7 @@ TEST_F(ClipRender, MeshesAndOptionsThatAreNotForItAreRefused) {
   ASSERT_EQ(limn.run({"make", "knot", "--faces", "600", "-o", "knot.ply"}).exit, 0);
   const Outcome mesh = limn.run({"render", "knot.ply", "-o", "out.png", "--method", "clip"});
   EXPECT_EQ(mesh.exit, 3) << mesh.err;
+  EXPECT_NE(mesh.err.find("no clip asset"), std::string::npos) << mesh.err;
   for (const char* option : {"--wireframe", "--flat", "--outline", "--levels"})
     EXPECT_EQ(limn.run({"render", "missing.glb", "-o", "out.png", "--method", "clip", option}).exit, 2) << option;
   ASSERT_EQ(limn.run({"clip", "knot.ply", "-o", "knot.glb", "--faces", "200", "--size", "128"}).exit, 0);
